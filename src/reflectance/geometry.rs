@@ -1,0 +1,138 @@
+//! Source and viewer as the models need them: cosines, the half vector and the wave vector
+//! v = k₁ − k₂ of (28), each in a form in which nothing cancels.
+
+use super::degrees::SinCos;
+use super::quantity::{Azimuth, SourceZenith, ViewerZenith};
+
+/// One pair of directions. The source lies at azimuth 180° of the x axis' half plane, so that
+/// azimuth 0 of the viewer holds the mirror direction, as in figure 7.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Geometry {
+    /// cos `θ_i`
+    pub cos_i: f64,
+    /// sin `θ_i`
+    pub sin_i: f64,
+    /// cos `θ_r`
+    pub cos_r: f64,
+    /// sin `θ_r`, not negative
+    pub sin_r: f64,
+    /// sin and cos of (`θ_i` − `θ_r`)/2
+    half_difference: SinCos,
+    /// sin and cos of `φ_r`/2
+    half_azimuth: SinCos,
+    /// q = cos `θ_i` + cos `θ_r` = |v_z|/k
+    pub cos_sum: f64,
+    /// sin `θ_i` − sin `θ_r` = q tan((`θ_i` − `θ_r`)/2)
+    sin_difference: f64,
+    /// `v_xy`/k of (37) = q tan α
+    pub horizontal: f64,
+}
+
+impl Geometry {
+    /// From angles in degrees.
+    pub fn new(theta_i: SourceZenith, theta_r: ViewerZenith, phi_r: Azimuth) -> Self {
+        let zenith = theta_r.get().abs();
+        let mut half_azimuth = SinCos::of_degrees(phi_r.get() / 2.0);
+        if theta_r.get() < 0.0 {
+            // The same zenith at φ_r + 180°: half of it is φ_r/2 + 90°, exactly.
+            half_azimuth = SinCos { sin: half_azimuth.cos, cos: -half_azimuth.sin };
+        }
+        Self::from_parts(
+            SinCos::of_degrees(theta_i.get()),
+            SinCos::of_degrees(zenith),
+            SinCos::of_degrees((theta_i.get() - zenith) / 2.0),
+            half_azimuth,
+        )
+    }
+
+    /// From angles in radians, taken as the exact doubles; `θ_i` may exceed π/2 (a source behind).
+    pub fn from_radians(theta_i: f64, theta_r: f64, phi_r: f64) -> Self {
+        Self::from_parts(
+            SinCos::of_radians(theta_i),
+            SinCos::of_radians(theta_r),
+            SinCos::of_radians((theta_i - theta_r) / 2.0),
+            SinCos::of_radians(phi_r / 2.0),
+        )
+    }
+
+    fn from_parts(i: SinCos, r: SinCos, half_difference: SinCos, half_azimuth: SinCos) -> Self {
+        let cos_sum = i.cos + r.cos;
+        let sin_difference = cos_sum * (half_difference.sin / half_difference.cos);
+        let across = 2.0 * i.sin.sqrt() * r.sin.sqrt() * half_azimuth.sin;
+        Self {
+            cos_i: i.cos,
+            sin_i: i.sin,
+            cos_r: r.cos,
+            sin_r: r.sin,
+            half_difference,
+            half_azimuth,
+            cos_sum,
+            sin_difference,
+            horizontal: libm::hypot(sin_difference, across),
+        }
+    }
+
+    /// v_x/k of (28): sin `θ_i` − sin `θ_r` cos `φ_r`.
+    pub fn along(&self) -> f64 {
+        let (front, back) = self.along_parts();
+        front + back
+    }
+
+    /// The two terms of v_x/k that may cancel: sin `θ_i` − sin `θ_r` and 2 sin `θ_r` sin²(`φ_r`/2).
+    pub(super) fn along_parts(&self) -> (f64, f64) {
+        (self.sin_difference, 2.0 * self.sin_r * self.half_azimuth.sin * self.half_azimuth.sin)
+    }
+
+    /// v_y/k of (28) with the report's sign (errata E12: only its magnitude matters).
+    pub fn across(&self) -> f64 {
+        2.0 * self.sin_r * self.half_azimuth.sin * self.half_azimuth.cos
+    }
+
+    /// 2 cos `θ′`: the length of v/k.
+    pub fn length(&self) -> f64 {
+        libm::hypot(self.cos_sum, self.horizontal)
+    }
+
+    /// q (1 + tan² α) = 4 cos² `θ′`/q; `D` of (36) is this over 2 cos `θ_i`.
+    pub fn facet_factor(&self) -> f64 {
+        let length = self.length();
+        length * (length / self.cos_sum)
+    }
+
+    /// D of (36); infinite at `θ_i` = 90°.
+    pub fn d(&self) -> f64 {
+        self.facet_factor() / (2.0 * self.cos_i)
+    }
+
+    /// tan α of (76), the slope of the facet that mirrors the source to the viewer.
+    pub fn tan_alpha(&self) -> f64 {
+        self.horizontal / self.cos_sum
+    }
+
+    /// α in radians, by the half vector instead of (60) (errata E33).
+    pub fn alpha(&self) -> f64 {
+        libm::atan2(self.horizontal, self.cos_sum)
+    }
+
+    /// sin and cos of `θ′`, the local angle of incidence (59).
+    pub fn local_incidence(&self) -> SinCos {
+        SinCos {
+            sin: libm::hypot(
+                self.half_difference.sin,
+                self.sin_i.max(0.0).sqrt() * self.sin_r.sqrt() * self.half_azimuth.cos,
+            ),
+            cos: 0.5 * self.length(),
+        }
+    }
+
+    /// `θ′` of (59) in radians.
+    pub fn theta_local(&self) -> f64 {
+        let SinCos { sin, cos } = self.local_incidence();
+        libm::atan2(sin, cos)
+    }
+
+    /// Whether the viewer stands in the mirror direction, `θ_r` = `θ_i` and `φ_r` = 0.
+    pub fn is_specular(&self) -> bool {
+        self.horizontal == 0.0 && self.half_difference.sin == 0.0
+    }
+}

@@ -1,0 +1,342 @@
+//! What a caller describes: surface, light, sensor, model. A [`Scene`] is checked as a whole when
+//! it is made; evaluating one cannot fail.
+
+use super::fresnel::{Medium, Polarization};
+use super::numeric::lobe_series::Method;
+use super::quantity::{
+    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
+    SpecularScale, Tolerance, Wavelength,
+};
+use super::roughness;
+use super::shadowing::Shadowing;
+
+/// Which of the report's models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// Specular lobe + specular spike, (47).
+    BeckmannSpizzichino,
+    /// Diffuse lobe + facet lobe, (72).
+    TorranceSparrow,
+    /// Diffuse lobe, (57).
+    Lambertian,
+    /// Lambertian diffuse lobe + Torrance-Sparrow specular lobe + Beckmann-Spizzichino spike, section 5.1.
+    Unified,
+}
+
+impl Model {
+    /// Every model.
+    pub const ALL: [Self; 4] =
+        [Self::BeckmannSpizzichino, Self::TorranceSparrow, Self::Lambertian, Self::Unified];
+
+    /// The components the model is made of, in the order in which they are answered.
+    pub const fn components(self) -> &'static [Component] {
+        use Component::{DiffuseLobe, SpecularLobe, SpecularSpike};
+        match self {
+            Self::BeckmannSpizzichino => &[SpecularLobe, SpecularSpike],
+            Self::TorranceSparrow => &[DiffuseLobe, SpecularLobe],
+            Self::Lambertian => &[DiffuseLobe],
+            Self::Unified => &[DiffuseLobe, SpecularLobe, SpecularSpike],
+        }
+    }
+
+    /// The name in requests and answers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BeckmannSpizzichino => "beckmann_spizzichino",
+            Self::TorranceSparrow => "torrance_sparrow",
+            Self::Lambertian => "lambertian",
+            Self::Unified => "unified",
+        }
+    }
+}
+
+/// A primary reflection component, section 5.1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Component {
+    /// (57)
+    DiffuseLobe,
+    /// The second term of (47), or (70).
+    SpecularLobe,
+    /// The first term of (47).
+    SpecularSpike,
+}
+
+impl Component {
+    /// Every component.
+    pub const ALL: [Self; 3] = [Self::DiffuseLobe, Self::SpecularLobe, Self::SpecularSpike];
+
+    /// The name in requests and answers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::DiffuseLobe => "diffuse_lobe",
+            Self::SpecularLobe => "specular_lobe",
+            Self::SpecularSpike => "specular_spike",
+        }
+    }
+
+    pub(super) const fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// What the surface is made of and how rough it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// σ_h of the height density (4).
+    pub rms_height: Option<RmsHeight>,
+    /// T of the autocorrelation (5).
+    pub correlation_length: Option<CorrelationLength>,
+    /// σ_α of (58); by (79) from σ_h/T when absent.
+    pub facet_slope: Option<FacetSlope>,
+    /// Perfect conductor, or n − ik.
+    pub medium: Medium,
+    /// ρ; κ_diff = ρ/π.
+    pub diffuse_albedo: Fraction,
+    /// c·a_f; when absent, the value that tiles the mean plane (errata E31).
+    pub specular_scale: Option<SpecularScale>,
+    /// When absent: none for Beckmann-Spizzichino, V-groove for Torrance-Sparrow.
+    pub shadowing: Option<Shadowing>,
+}
+
+/// The light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Illumination {
+    /// λ; needed by the height models only.
+    pub wavelength: Option<Wavelength>,
+    /// Of the beam on a plane normal to it: L_i dω_i of (57), S_a of (50).
+    pub irradiance: Irradiance,
+    /// h and v of (63) as energies (errata E35).
+    pub polarization: Polarization,
+}
+
+/// What the sensor sees of the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sensor {
+    /// The quantities of (47) and (35) themselves.
+    Patch {
+        /// (z/f)² dA_im cos γ of (43).
+        footprint: Area,
+        /// X of (35).
+        half_x: Length,
+        /// Y of (35).
+        half_y: Length,
+    },
+    /// A camera: footprint by (43), A = footprint/cos θ_r, X = Y = √A/2.
+    Camera {
+        /// dA_im
+        pixel_area: Area,
+        /// z
+        distance: Length,
+        /// f
+        focal_length: Length,
+        /// d, the diameter of the lens
+        aperture: Length,
+        /// γ
+        off_axis: OffAxis,
+    },
+}
+
+/// Which components to answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Components {
+    /// Those that matter.
+    Auto,
+    /// These, whether they matter or not.
+    Named(Vec<Component>),
+}
+
+/// Tolerance and method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Relative, of the total, per direction.
+    pub relative_tolerance: Tolerance,
+    /// How the lobe series is evaluated.
+    pub method: Method,
+}
+
+/// Everything about a scene but the directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneParameters {
+    /// The model.
+    pub model: Model,
+    /// The surface.
+    pub surface: Surface,
+    /// The light.
+    pub illumination: Illumination,
+    /// The sensor, which only the spike needs.
+    pub sensor: Option<Sensor>,
+    /// The components asked for.
+    pub components: Components,
+    /// The accuracy asked for.
+    pub accuracy: Accuracy,
+}
+
+/// A parameter by the name the core knows it by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each is a field of SceneParameters")]
+pub enum Parameter {
+    RmsHeight,
+    CorrelationLength,
+    FacetSlope,
+    Wavelength,
+    Sensor,
+    Components,
+}
+
+/// Why parameters that are each in range do not make a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SceneError {
+    /// A parameter that the model or a component needs is absent.
+    Missing {
+        /// Which.
+        parameter: Parameter,
+        /// What needs it.
+        needed_by: &'static str,
+    },
+    /// The model has no such component.
+    NotInModel {
+        /// Position in the list of components.
+        position: usize,
+        /// Which component.
+        component: Component,
+        /// Of this model.
+        model: Model,
+    },
+    /// A component is named twice.
+    Repeated {
+        /// Position in the list of components.
+        position: usize,
+        /// Which component.
+        component: Component,
+    },
+    /// The list of components is empty.
+    NoComponents,
+}
+
+/// A scene whose parameters fit together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    pub(super) parameters: SceneParameters,
+    /// Components to evaluate, in the model's order.
+    pub(super) evaluated: Vec<Component>,
+    /// σ_α in radians, where the model has facets.
+    pub(super) facet_slope_radians: Option<f64>,
+}
+
+impl Scene {
+    /// Checks the parameters against each other; all that is wrong comes back at once.
+    pub fn new(parameters: SceneParameters) -> Result<Self, Vec<SceneError>> {
+        let mut errors = Vec::new();
+        let model = parameters.model;
+        let in_model = model.components();
+        let evaluated: Vec<Component> = match &parameters.components {
+            Components::Auto => in_model
+                .iter()
+                .copied()
+                .filter(|&c| c != Component::SpecularSpike || parameters.sensor.is_some())
+                .collect(),
+            Components::Named(named) => {
+                if named.is_empty() {
+                    errors.push(SceneError::NoComponents);
+                }
+                for (position, &component) in named.iter().enumerate() {
+                    if !in_model.contains(&component) {
+                        errors.push(SceneError::NotInModel { position, component, model });
+                    } else if named[..position].contains(&component) {
+                        errors.push(SceneError::Repeated { position, component });
+                    }
+                }
+                in_model.iter().copied().filter(|c| named.contains(c)).collect()
+            }
+        };
+        errors.extend(missing(&parameters, &evaluated));
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let facet_slope_radians = facet_slope_radians(&parameters.surface);
+        Ok(Self { parameters, evaluated, facet_slope_radians })
+    }
+
+    /// The parameters it was made of.
+    pub fn parameters(&self) -> &SceneParameters {
+        &self.parameters
+    }
+
+    /// The components that an evaluation answers, in the model's order.
+    pub fn evaluated(&self) -> &[Component] {
+        &self.evaluated
+    }
+
+    /// The shadowing in force: the caller's, or the model's default.
+    pub fn shadowing(&self) -> Shadowing {
+        self.parameters.surface.shadowing.unwrap_or(match self.parameters.model {
+            Model::BeckmannSpizzichino | Model::Lambertian => Shadowing::None,
+            Model::TorranceSparrow | Model::Unified => Shadowing::VGroove,
+        })
+    }
+}
+
+fn facet_slope_radians(surface: &Surface) -> Option<f64> {
+    if let Some(slope) = surface.facet_slope {
+        return Some(super::degrees::to_radians(slope.get()));
+    }
+    let (height, length) = (surface.rms_height?, surface.correlation_length?);
+    Some(roughness::facet_slope_radians(height.get() / length.get()))
+}
+
+/// The parameters that the evaluated components need and the caller left out.
+fn missing(p: &SceneParameters, evaluated: &[Component]) -> Vec<SceneError> {
+    let lobe = evaluated.contains(&Component::SpecularLobe);
+    let spike = evaluated.contains(&Component::SpecularSpike);
+    let height_lobe = lobe && p.model == Model::BeckmannSpizzichino;
+    let facet_lobe = lobe && !height_lobe && p.surface.facet_slope.is_none();
+    // Spike and lobe share the reflected energy by e^{-g} unless the caller scales the lobe.
+    let shared_lobe = lobe && p.model == Model::Unified && p.surface.specular_scale.is_none();
+    let needs = [
+        (
+            Parameter::RmsHeight,
+            p.surface.rms_height.is_none(),
+            if height_lobe {
+                Some("the Beckmann-Spizzichino specular lobe")
+            } else if spike {
+                Some("the specular spike")
+            } else if shared_lobe {
+                Some("the unified model's specular lobe, unless specular_scale is given")
+            } else if facet_lobe {
+                Some("the facet slope by (79), unless facet_slope_deg is given")
+            } else {
+                None
+            },
+        ),
+        (
+            Parameter::CorrelationLength,
+            p.surface.correlation_length.is_none(),
+            if height_lobe {
+                Some("the Beckmann-Spizzichino specular lobe")
+            } else if facet_lobe {
+                Some("the facet slope by (79), unless facet_slope_deg is given")
+            } else {
+                None
+            },
+        ),
+        (
+            Parameter::Wavelength,
+            p.illumination.wavelength.is_none(),
+            if height_lobe {
+                Some("the Beckmann-Spizzichino specular lobe")
+            } else if spike {
+                Some("the specular spike")
+            } else if shared_lobe {
+                Some("the unified model's specular lobe, unless specular_scale is given")
+            } else {
+                None
+            },
+        ),
+        (Parameter::Sensor, p.sensor.is_none(), spike.then_some("the specular spike")),
+    ];
+    needs
+        .into_iter()
+        .filter(|(_, absent, _)| *absent)
+        .filter_map(|(parameter, _, needed_by)| Some(SceneError::Missing { parameter, needed_by: needed_by? }))
+        .collect()
+}
