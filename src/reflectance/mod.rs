@@ -3,6 +3,9 @@
 //! Numbers are parsed once, into the types of [`quantity`]; past that point nothing can fail.
 //! Errors are stated in units of ε = 2⁻⁵³, the largest relative error of one rounding.
 
+pub mod beckmann_spizzichino;
+pub mod estimate;
+pub mod scene;
 pub mod bounds;
 pub mod degrees;
 pub mod fresnel;

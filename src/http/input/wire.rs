@@ -113,9 +113,7 @@ pub(crate) fn number(node: &Node, reader: &mut Reader, expected: &dyn std::fmt::
     match node {
         Node::Number(number) => Some(*number),
         Node::Text(text) if reader.is_flat() => {
-            // In a query "+" means a blank: 1e+3 arrives as "1e 3".
-            let parsed = text.trim().replace(' ', "+").parse::<f64>().ok();
-            parsed.or_else(|| reader.fail(Code::WrongType, mismatch(node, expected)))
+            text_number(text).or_else(|| reader.fail(Code::WrongType, mismatch(node, expected)))
         }
         Node::Text(text) if text.parse::<f64>().is_ok_and(|number| !number.is_finite()) => {
             let detail =
@@ -127,7 +125,12 @@ pub(crate) fn number(node: &Node, reader: &mut Reader, expected: &dyn std::fmt::
     }
 }
 
-/// "… instead of …"
+/// The number that a text in a query spells. "+" means a blank there: 1e+3 arrives as "1e 3".
+pub(crate) fn text_number(text: &str) -> Option<f64> {
+    text.trim().replace(' ', "+").parse().ok()
+}
+
+/// What was found instead of what was expected.
 pub(crate) fn mismatch(found: &Node, expected: &dyn std::fmt::Display) -> String {
     format!("found {}: expected {expected}", found.describe())
 }
