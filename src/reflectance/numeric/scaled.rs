@@ -59,7 +59,8 @@ impl Scaled {
             if self.significand == 0.0 {
                 return Self { significand: self.significand, exponent: 0.0 };
             }
-            let raised = Self { significand: self.significand * 2f64.powi(64), exponent: self.exponent - 64.0 };
+            let raised =
+                Self { significand: self.significand * 2f64.powi(64), exponent: self.exponent - 64.0 };
             return raised.normalized();
         }
         if biased == 0x7ff {
@@ -123,6 +124,11 @@ impl Scaled {
         self.significand == 0.0
     }
 
+    /// Whether there is no value.
+    pub fn is_nan(self) -> bool {
+        self.significand.is_nan()
+    }
+
     /// Neither infinite nor undefined. A finite value may still lie beyond f64's range.
     pub fn is_finite(self) -> bool {
         self.significand.is_finite()
@@ -132,11 +138,8 @@ impl Scaled {
 impl Mul for Scaled {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self {
-            significand: self.significand * other.significand,
-            exponent: self.exponent + other.exponent,
-        }
-        .normalized()
+        Self { significand: self.significand * other.significand, exponent: self.exponent + other.exponent }
+            .normalized()
     }
 }
 
@@ -150,11 +153,8 @@ impl Mul<f64> for Scaled {
 impl Div for Scaled {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        Self {
-            significand: self.significand / other.significand,
-            exponent: self.exponent - other.exponent,
-        }
-        .normalized()
+        Self { significand: self.significand / other.significand, exponent: self.exponent - other.exponent }
+            .normalized()
     }
 }
 
