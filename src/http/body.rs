@@ -8,7 +8,7 @@ use super::input::wire::Wire;
 use super::problem::{Code, FieldError, Kind, Problem};
 use super::track::Deadline;
 use axum::body::Bytes;
-use axum::extract::{FromRequest, Request};
+use axum::extract::{FromRequest, FromRequestParts as _, Request};
 use axum::http::{HeaderMap, header};
 use http_body_util::{BodyExt as _, LengthLimitError, Limited};
 
@@ -23,8 +23,10 @@ impl<T: Wire + Send + 'static> FromRequest<Limits> for JsonBody<T> {
 
     async fn from_request(request: Request, limits: &Limits) -> Result<Self, Problem> {
         check_content_type(request.headers())?;
-        let deadline = compute::deadline(request.extensions().get::<Deadline>(), *limits);
-        let read = tokio::time::timeout_at(deadline, bytes(request, *limits));
+        let (mut parts, body) = request.into_parts();
+        let Ok(deadline) = Deadline::from_request_parts(&mut parts, limits).await;
+        let request = Request::from_parts(parts, body);
+        let read = tokio::time::timeout_at(deadline.0, bytes(request, *limits));
         let bytes = read.await.unwrap_or_else(|_| {
             let limit = limits.request_time.as_secs_f64();
             Err(Problem::new(Kind::RequestTimeout, format!("the body did not arrive within {limit} s")))

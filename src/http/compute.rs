@@ -1,21 +1,14 @@
 //! Where the computing happens: small work at once, large work off the threads that serve connections.
 
-use super::Limits;
 use super::problem::{Kind, Problem};
 use super::track::Deadline;
-use tokio::time::Instant;
 
 /// Directions that are evaluated without a change of thread, which costs as much as dozens of them.
 const SMALL: usize = 1000;
 
-/// When this request has to be answered.
-pub(super) fn deadline(known: Option<&Deadline>, limits: Limits) -> Instant {
-    known.map_or_else(|| Instant::now() + limits.request_time, |deadline| deadline.0)
-}
-
 /// Does work of so many directions.
 pub(super) async fn run<T: Send + 'static>(
-    deadline: Instant,
+    deadline: Deadline,
     directions: usize,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Problem> {
@@ -24,10 +17,10 @@ pub(super) async fn run<T: Send + 'static>(
 
 /// Does work on a thread of its own.
 pub(super) async fn blocking<T: Send + 'static>(
-    deadline: Instant,
+    deadline: Deadline,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Problem> {
-    match tokio::time::timeout_at(deadline, tokio::task::spawn_blocking(work)).await {
+    match tokio::time::timeout_at(deadline.0, tokio::task::spawn_blocking(work)).await {
         Ok(Ok(value)) => Ok(value),
         Ok(Err(error)) => {
             tracing::error!(%error, "work did not finish");

@@ -1,6 +1,8 @@
 //! Content negotiation by the `Accept` header, RFC 9110 section 12.5.1.
 
 use super::problem::{Kind, Problem};
+use axum::extract::FromRequestParts;
+use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
 
 /// A representation that an answer can take.
@@ -25,6 +27,17 @@ impl Format {
             Self::Json => "application/json",
             Self::Csv => "text/csv; charset=utf-8; header=present",
         }
+    }
+}
+
+/// Lets a request pass that accepts JSON.
+pub(crate) struct JsonOnly;
+
+impl<S: Sync> FromRequestParts<S> for JsonOnly {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        negotiate(&parts.headers, &[Format::Json]).map(|_| Self)
     }
 }
 

@@ -3,23 +3,39 @@
 use super::Limits;
 use super::problem::{Kind, Problem};
 use axum::body::{Body, HttpBody as _};
-use axum::extract::{Request, State};
+use axum::extract::{FromRequestParts, Request, State};
+use axum::http::request::Parts;
 use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse as _, Response};
 use std::any::Any;
+use std::convert::Infallible;
 use std::time::Instant;
 
 /// When a request has to be answered.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deadline(pub(super) tokio::time::Instant);
 
+impl FromRequestParts<Limits> for Deadline {
+    type Rejection = Infallible;
+
+    async fn from_request_parts(parts: &mut Parts, limits: &Limits) -> Result<Self, Infallible> {
+        Ok(parts.extensions.get::<Self>().copied().unwrap_or_else(|| Self::from_now(*limits)))
+    }
+}
+
+impl Deadline {
+    fn from_now(limits: Limits) -> Self {
+        Self(tokio::time::Instant::now() + limits.request_time)
+    }
+}
+
 /// Outermost layer: everything that leaves the service passes here.
 pub(super) async fn track(State(limits): State<Limits>, mut request: Request, next: Next) -> Response {
     let started = Instant::now();
     let method = request.method().clone();
     let path = request.uri().path().to_owned();
-    request.extensions_mut().insert(Deadline(tokio::time::Instant::now() + limits.request_time));
+    request.extensions_mut().insert(Deadline::from_now(limits));
 
     let response = next.run(request).await;
     let mut response = settle(response, &method, &path);

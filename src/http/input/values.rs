@@ -6,6 +6,7 @@ use super::reader::{ElementErrors, Fields, Reader};
 use super::wire::{Parameter, Schemas, Wire, mismatch, named, named_schema, read_named};
 use crate::http::problem::Code;
 use crate::reflectance::bounds::MAX_DIRECTIONS;
+use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
@@ -20,17 +21,10 @@ named! {
     Method, "a method", Method::ALL;
 }
 
-/// One number for all directions, or one for each.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum OneOrMany<Q> {
-    One(Q),
-    Many(Vec<Q>),
-}
-
-impl<Q: Quantity> Wire for OneOrMany<Q> {
+impl<Q: Quantity> Wire for Angles<Q> {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
-            Node::Array(_) => many(node, MAX_DIRECTIONS, reader).map(Self::Many),
+            Node::Array(_) => many(node, MAX_DIRECTIONS, reader).map(Self::Each),
             Node::Number(_) | Node::Text(_) => Q::read(node, reader).map(Self::One),
             other => reader.fail(Code::WrongType, mismatch(&other, &format!("{}, or an array of such", Q::BOUNDS))),
         }
