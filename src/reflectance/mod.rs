@@ -12,6 +12,8 @@ pub mod numeric;
 pub mod quantity;
 pub mod roughness;
 pub mod shadowing;
+pub mod torrance_sparrow;
+pub mod unified;
 
 /// ε = 2⁻⁵³: the largest relative error of one rounding to nearest.
 pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
