@@ -1,8 +1,9 @@
 //! The facet lobe of Torrance and Sparrow, (58)-(71). Its companion, the diffuse lobe of (72), is [`super::lambertian`].
 
-use super::UNIT_ROUNDOFF;
+use super::estimate::Estimate;
 use super::fresnel::{Energy, Medium, Polarization};
 use super::geometry::Geometry;
+use super::numeric::EPSILON;
 use super::numeric::quadrature;
 use super::numeric::scaled::Scaled;
 use super::shadowing::Shadowing;
@@ -23,15 +24,6 @@ pub struct FacetLobe {
     pub shadowing: Shadowing,
 }
 
-/// A radiance and the bound of its absolute error, both beyond f64's range if need be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Radiance {
-    /// W m⁻² sr⁻¹; infinite or NaN where the model is.
-    pub value: Scaled,
-    /// |value − exact| for the numbers as given; 0 where the value is not finite.
-    pub error: Scaled,
-}
-
 impl FacetLobe {
     /// κ_spec of (71) per steradian, with the error that comes from F′.
     pub fn kappa_spec(&self, geometry: &Geometry) -> Energy {
@@ -49,31 +41,23 @@ impl FacetLobe {
     ///
     /// Infinite at cos θ_r = 0 without shadowing, NaN where G has no limit. Error: 14 ε (α/σ_α)² for the exponential, whose
     /// angle is known to 6 ε and width to 5 ε; 48 ε for the factors; and that of F′.
-    pub fn radiance(&self, geometry: &Geometry, irradiance: f64) -> Radiance {
+    pub fn radiance(&self, geometry: &Geometry, irradiance: f64) -> Estimate {
         let reflectance = self.medium.reflectance(geometry.local_incidence(), self.polarization);
         let over_cos = self.shadowing.factor_over_cos_r(geometry);
         // A lobe without strength has no radiance at grazing either.
         if self.specular_scale == 0.0 || reflectance == Energy::ZERO {
-            return Radiance { value: Scaled::ZERO, error: Scaled::ZERO };
+            return Estimate::ZERO;
         }
-        if !over_cos.is_finite() {
-            return Radiance { value: Scaled::new(over_cos), error: Scaled::ZERO };
+        if over_cos.is_nan() {
+            return Estimate::UNDEFINED;
+        }
+        if over_cos.is_infinite() {
+            return Estimate::INFINITE;
         }
         let ratio = geometry.alpha() / self.sigma_alpha;
         let square = ratio * ratio;
-        let beam = Scaled::exp(-0.5 * square)
-            * Scaled::new(0.25 * over_cos)
-            * Scaled::new(self.specular_scale)
-            * Scaled::new(irradiance);
-        // e^δ − 1, the relative error of an exponential whose exponent is off by δ; below 1/2 it is at most 1.3 δ.
-        let delta = UNIT_ROUNDOFF * (14.0 * square + 48.0);
-        let (relative, whole) = if delta < 0.5 {
-            (Scaled::new(1.3 * delta), Scaled::new(1.0 + 1.3 * delta))
-        } else {
-            (Scaled::exp(delta), Scaled::exp(delta))
-        };
-        let value = beam * reflectance.value;
-        Radiance { value, error: value * relative + beam * whole * reflectance.error }
+        let beam = Scaled::exp(-0.5 * square) * over_cos * (0.25 * self.specular_scale) * irradiance;
+        Estimate::within(beam, EPSILON * (14.0 * square + 48.0)).times(reflectance.into())
     }
 }
 
@@ -99,9 +83,9 @@ pub fn normalized_scale(sigma_alpha: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{FacetLobe, normalized_scale};
-    use crate::reflectance::UNIT_ROUNDOFF;
     use crate::reflectance::fresnel::{Medium, Polarization};
     use crate::reflectance::geometry::Geometry;
+    use crate::reflectance::numeric::EPSILON;
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
     use crate::reflectance::shadowing::Shadowing;
     use core::f64::consts::PI;
@@ -129,11 +113,11 @@ mod tests {
         // The next term of the integral is smaller by the order of σ².
         for sigma in [1e-120, 1e-14, 1e-9] {
             let scale = normalized_scale(sigma) * sigma * sigma;
-            assert!((scale * 2.0 * PI - 1.0).abs() < 16.0 * UNIT_ROUNDOFF, "{sigma} {scale}");
+            assert!((scale * 2.0 * PI - 1.0).abs() < 16.0 * EPSILON, "{sigma} {scale}");
         }
         // exp(−α²/2σ²) ≥ 1 − π²/8σ².
         let wide = normalized_scale(1e9);
-        assert!((wide * PI - 1.0).abs() < 16.0 * UNIT_ROUNDOFF, "{wide}");
+        assert!((wide * PI - 1.0).abs() < 16.0 * EPSILON, "{wide}");
         // Errata E31: 1.07 and 1.42 times 1/(2πσ²) at 13 and 30 degrees.
         for (degrees, printed) in [(13.0f64, 1.07), (30.0, 1.42)] {
             let sigma = degrees.to_radians();
@@ -162,8 +146,8 @@ mod tests {
         let ln = radiance.value.ln();
         let exact = -4.5e10 + 2f64.ln();
         // The exponent's own bound, 14 ε (α/σ)², and the roundings of the test.
-        assert!((ln - exact).abs() <= 16.0 * UNIT_ROUNDOFF * 9e10, "{ln}");
-        assert!((radiance.error / radiance.value).to_f64() < 1e-3);
+        assert!((ln - exact).abs() <= 16.0 * EPSILON * 9e10, "{ln}");
+        assert!(radiance.relative_error() < 1e-3);
     }
 
     #[test]

@@ -22,12 +22,12 @@ pub fn lobe_share(g: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{lobe_share, mirror_g, spike_share};
-    use crate::reflectance::UNIT_ROUNDOFF;
+    use crate::reflectance::numeric::EPSILON;
 
     #[test]
     fn the_shares_add_up_and_small_ones_keep_their_digits() {
         for g in [1e-3, 0.5, 1.0, 40.0] {
-            assert!((spike_share(g) + lobe_share(g) - 1.0).abs() <= 4.0 * UNIT_ROUNDOFF);
+            assert!((spike_share(g) + lobe_share(g) - 1.0).abs() <= 4.0 * EPSILON);
         }
         assert_eq!(lobe_share(1e-300), 1e-300);
         assert_eq!((spike_share(0.0), lobe_share(0.0)), (1.0, 0.0));
@@ -38,6 +38,6 @@ mod tests {
     fn an_eighth_of_a_wavelength_turns_the_phase_by_a_right_angle() {
         let right_angle = core::f64::consts::FRAC_PI_2;
         let g = mirror_g(0.125, 1.0, 1.0);
-        assert!((g / (right_angle * right_angle) - 1.0).abs() < 8.0 * UNIT_ROUNDOFF, "{g}");
+        assert!((g / (right_angle * right_angle) - 1.0).abs() < 8.0 * EPSILON, "{g}");
     }
 }

@@ -4,7 +4,7 @@
 //! substitution x = tanh(π/2 sinh t) turns the interval into the real line and makes the integrand fall off
 //! doubly exponentially, where the trapezoidal rule converges as fast as its step allows.
 
-use crate::reflectance::UNIT_ROUNDOFF;
+use crate::reflectance::numeric::EPSILON;
 use core::f64::consts::FRAC_PI_2;
 
 /// An integral and the estimate of its absolute error.
@@ -64,7 +64,7 @@ pub fn integrate(a: f64, b: f64, mut f: impl FnMut(f64) -> f64) -> Integral {
         }
         let value = half * step * sum.total();
         let change = (value - previous).abs();
-        let rounding = 4.0 * UNIT_ROUNDOFF * half * step * size;
+        let rounding = 4.0 * EPSILON * half * step * size;
         if (halving > 2 && change <= rounding) || halving == HALVINGS {
             return Integral { value, error: change + rounding };
         }
@@ -105,14 +105,14 @@ impl Sum {
 #[cfg(test)]
 mod tests {
     use super::integrate;
-    use crate::reflectance::UNIT_ROUNDOFF;
+    use crate::reflectance::numeric::EPSILON;
     use core::f64::consts::PI;
 
     fn check(got: super::Integral, exact: f64) {
         // One rounding of the reference on top of the stated error, which is itself to be a few ε.
-        let slack = got.error + UNIT_ROUNDOFF * exact.abs();
+        let slack = got.error + EPSILON * exact.abs();
         assert!((got.value - exact).abs() <= slack, "{got:?} {exact}");
-        assert!(got.error <= 16.0 * UNIT_ROUNDOFF * exact.abs(), "{got:?} {exact}");
+        assert!(got.error <= 16.0 * EPSILON * exact.abs(), "{got:?} {exact}");
     }
 
     #[test]
