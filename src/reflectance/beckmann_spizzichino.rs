@@ -117,7 +117,8 @@ impl Patch {
         let along = Phase::new(self.half_x, front + back, front.abs() + back.abs());
         let across = Phase::new(self.half_y, geometry.across(), geometry.across().abs());
         let rho = along.sinc * across.sinc;
-        let error = along.error * across.sinc.abs() + across.error * along.sinc.abs() + along.error * across.error;
+        let error =
+            along.error * across.sinc.abs() + across.error * along.sinc.abs() + along.error * across.error;
         // Far from the specular direction ρ is small and its square may leave f64's range.
         let (rho, error) = (Scaled::new(rho.abs()), Scaled::new(error));
         Estimate { value: rho.squared(), error: rho * error * 2.0 + error.squared() }

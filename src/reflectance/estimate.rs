@@ -1,6 +1,5 @@
 //! A value with an absolute error bound, both with exponents that cannot run out.
 
-use super::fresnel::Energy;
 use super::numeric::scaled::Scaled;
 
 /// |exact − value| ≤ error.
@@ -54,11 +53,5 @@ impl Estimate {
     /// error/value: 0 for an exact zero, infinite for a zero that is not exact.
     pub fn relative_error(self) -> f64 {
         if self.error.is_zero() { 0.0 } else { (self.error / self.value).to_f64() }
-    }
-}
-
-impl From<Energy> for Estimate {
-    fn from(energy: Energy) -> Self {
-        Self { value: Scaled::new(energy.value), error: Scaled::new(energy.error) }
     }
 }

@@ -4,8 +4,8 @@
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
 use super::quantity::{
-    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
-    SpecularScale, Tolerance, Wavelength,
+    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, RmsHeight, SpecularScale,
+    Tolerance, Wavelength,
 };
 use super::roughness;
 use super::shadowing::Shadowing;
@@ -337,6 +337,8 @@ fn missing(p: &SceneParameters, evaluated: &[Component]) -> Vec<SceneError> {
     needs
         .into_iter()
         .filter(|(_, absent, _)| *absent)
-        .filter_map(|(parameter, _, needed_by)| Some(SceneError::Missing { parameter, needed_by: needed_by? }))
+        .filter_map(|(parameter, _, needed_by)| {
+            Some(SceneError::Missing { parameter, needed_by: needed_by? })
+        })
         .collect()
 }

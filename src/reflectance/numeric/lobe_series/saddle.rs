@@ -37,11 +37,8 @@ fn lambert_w(g: f64, x: f64) -> f64 {
         // W = z − z² + …, the next term below 1e-16 of the first.
         return z * (1.0 - z);
     }
-    let ln_z = if z < 1e300 {
-        libm::log(z)
-    } else {
-        core::f64::consts::LN_2 + libm::log(x) - 2.0 * libm::log(g)
-    };
+    let ln_z =
+        if z < 1e300 { libm::log(z) } else { core::f64::consts::LN_2 + libm::log(x) - 2.0 * libm::log(g) };
     let mut w = if ln_z > 2.0 { ln_z - libm::log(ln_z) } else { libm::log1p(z) * 0.7 };
     // Newton's step for w + ln w = ln z. It squares the error; the start is within 30 %.
     for _ in 0..8 {

@@ -32,7 +32,13 @@ pub(super) fn rough(g: f64, x: f64) -> LobeSeries {
         // e^{-x/g}/g → 0 for x > 0; for x = 0 it grows without bound. S itself is 0.
         let value = if x > 0.0 { Scaled::ZERO } else { Scaled::INFINITY };
         let relative_error = if x > 0.0 { 0.0 } else { f64::INFINITY };
-        return LobeSeries { value, relative_error, condition_g: 0.0, condition_x: 0.0, method: Method::Rough };
+        return LobeSeries {
+            value,
+            relative_error,
+            condition_g: 0.0,
+            condition_x: 0.0,
+            method: Method::Rough,
+        };
     }
     let y = x / g;
     let value = Scaled::exp(-y) / Scaled::new(g);

@@ -15,12 +15,22 @@ const REMAINDER: f64 = 4.0 * 120.0;
 /// c₁ … c₄ as polynomials in t = 1/w, lowest power first.
 const C1: [f64; 4] = [-1.0, 0.0, 3.0, 10.0];
 const C2: [f64; 7] = [1.0, -24.0, -30.0, -92.0, -399.0, -420.0, 1540.0];
-const C3: [f64; 10] = [
-    139.0, 540.0, 405.0, -930.0, 12825.0, 129816.0, 278355.0, -810810.0, -2702700.0, 3403400.0,
-];
+const C3: [f64; 10] =
+    [139.0, 540.0, 405.0, -930.0, 12825.0, 129816.0, 278355.0, -810810.0, -2702700.0, 3403400.0];
 const C4: [f64; 13] = [
-    -571.0, 40032.0, 47604.0, 66040.0, 166590.0, -1148184.0, -15800532.0, -50131224.0, 101975445.0,
-    813412600.0, 116396280.0, -3879876000.0, 2974571600.0,
+    -571.0,
+    40032.0,
+    47604.0,
+    66040.0,
+    166590.0,
+    -1148184.0,
+    -15800532.0,
+    -50131224.0,
+    101975445.0,
+    813412600.0,
+    116396280.0,
+    -3879876000.0,
+    2974571600.0,
 ];
 
 fn horner(coefficients: &[f64], t: f64) -> f64 {
@@ -55,11 +65,8 @@ pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     let value = leading_term(g, x, saddle) * correction(saddle);
     let condition_g = (saddle.mu - g).abs().max(1.0);
     let condition_x = x / saddle.mu;
-    let truncation = if serves(saddle) {
-        truncation(saddle)
-    } else {
-        excess(value, &series::converged_at(g, x, saddle))
-    };
+    let truncation =
+        if serves(saddle) { truncation(saddle) } else { excess(value, &series::converged_at(g, x, saddle)) };
     LobeSeries {
         value,
         relative_error: truncation + rounding(condition_g, condition_x),
