@@ -46,6 +46,6 @@ pub fn greeting(address: SocketAddr) -> String {
         "reflectance {version} on http://{address}/  (reference: http://{address}/docs)\n\
          Try: curl -s http://{address}/v1/radiance -H 'content-type: application/json' -d '{body}'\n",
         version = env!("CARGO_PKG_VERSION"),
-        body = api::FIRST_REQUEST,
+        body = api::FIRST_REQUEST.replace('\n', ""),
     )
 }

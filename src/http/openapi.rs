@@ -1,9 +1,13 @@
 //! What the `OpenAPI` document says beyond its operations.
 
+use super::api::examples::BODIES;
+use super::problem::Document;
 use super::routes;
+use utoipa::openapi::example::ExampleBuilder;
 use utoipa::openapi::info::{InfoBuilder, LicenseBuilder};
 use utoipa::openapi::tag::TagBuilder;
-use utoipa::openapi::{OpenApi, OpenApiBuilder};
+use utoipa::openapi::{OpenApi, OpenApiBuilder, RefOr};
+use utoipa::{PartialSchema as _, ToSchema as _};
 
 const DESCRIPTION: &str = "\
 Surface reflection after Nayar, Ikeuchi and Kanade, *Surface Reflection: Physical and Geometrical Perspectives* \
@@ -44,8 +48,25 @@ pub(super) fn information() -> OpenApi {
         .build()
 }
 
-/// What can only be said once every operation is there.
-pub(super) fn complete(document: OpenApi) -> OpenApi {
+/// What can only be said once every operation is there: the problem document, and the examples.
+pub(super) fn complete(mut document: OpenApi) -> OpenApi {
+    let mut schemas = vec![(Document::name().into_owned(), Document::schema())];
+    Document::schemas(&mut schemas);
+    document.components.get_or_insert_default().schemas.extend(schemas);
+    for example in BODIES {
+        let operation = document.paths.paths.get_mut(example.path).and_then(|item| item.post.as_mut());
+        let content =
+            operation.and_then(|operation| operation.request_body.as_mut()).and_then(|body| match body {
+                RefOr::T(body) => body.content.get_mut("application/json"),
+                RefOr::Ref(_) => None,
+            });
+        if let (Some(RefOr::T(content)), Ok(value)) =
+            (content, serde_json::from_str::<serde_json::Value>(example.body))
+        {
+            let shown = ExampleBuilder::new().summary(example.summary).value(Some(value)).build();
+            content.examples.insert(example.name.to_owned(), shown.into());
+        }
+    }
     document
 }
 

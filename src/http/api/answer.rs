@@ -87,7 +87,7 @@ pub(crate) struct OmittedAnswer {
     /// What it could add to `total` at most, relative; null where it could not be computed.
     bound: Option<f64>,
     /// Why it was left out.
-    reason: String,
+    reason: &'static str,
 }
 
 fn component_name<S: Serializer>(component: &Component, serializer: S) -> Result<S::Ok, S::Error> {
@@ -102,7 +102,7 @@ pub(crate) struct WarningAnswer {
     #[schema(example = "tolerance_not_met")]
     code: &'static str,
     /// What, for people.
-    detail: String,
+    detail: &'static str,
     /// How much, where it is a number.
     value: Option<f64>,
     /// The directions concerned: 20 at most.
@@ -157,7 +157,7 @@ impl Answer {
                 .into_iter()
                 .map(|w| WarningAnswer {
                     code: w.code.name(),
-                    detail: w.detail,
+                    detail: w.code.detail(),
                     value: w.value,
                     indices: w.indices,
                     count: w.count,
@@ -173,13 +173,12 @@ impl Answer {
 
     /// About how many bytes it takes as JSON: a number has 17 digits, its exponent and a comma.
     pub(crate) fn size_hint(&self) -> usize {
-        let columns = 2
-            + [&self.diffuse_lobe, &self.specular_lobe, &self.specular_spike, &self.roughness_g]
-                .iter()
-                .chain(&[&self.log10_total, &self.log10_diffuse_lobe])
-                .chain(&[&self.log10_specular_lobe, &self.log10_specular_spike])
-                .filter(|column| column.is_some())
-                .count();
+        let columns = 2 + [&self.diffuse_lobe, &self.specular_lobe, &self.specular_spike, &self.roughness_g]
+            .iter()
+            .chain(&[&self.log10_total, &self.log10_diffuse_lobe])
+            .chain(&[&self.log10_specular_lobe, &self.log10_specular_spike])
+            .filter(|column| column.is_some())
+            .count();
         1024 + 24 * columns * self.total.0.len() + 160 * self.diagnostics.len()
     }
 }

@@ -2,14 +2,14 @@
 
 use super::answer::Answer;
 use super::responses::PostProblems;
-use super::scene::{CheckedScene, SceneWire};
+use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
 use crate::http::encode::json;
 use crate::http::input::node::Node;
 use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::{Fields, Reader};
-use crate::http::input::wire::{Parameter, Schemas, Wire};
+use crate::http::input::reader::Reader;
+use crate::http::input::wire::{Schemas, Wire};
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
 use crate::http::track::Deadline;
@@ -18,7 +18,7 @@ use crate::reflectance::evaluate::{Output, Quantity, evaluate};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
 use axum::response::Response;
 use utoipa::openapi::RefOr;
-use utoipa::openapi::schema::{ObjectBuilder, Schema};
+use utoipa::openapi::schema::Schema;
 
 object! {
     /// The directions: each angle one number, or an array with one number a direction. All arrays have one
@@ -84,7 +84,8 @@ fn note(error: DirectionsError, reader: &mut Reader) {
     let (angle, code, detail) = match error {
         DirectionsError::Empty { angle } => (angle, Code::Empty, "the array is empty".to_owned()),
         DirectionsError::UnequalLength { angle, length, expected } => {
-            let detail = format!("the array has {length} elements, another has {expected}: expected one length");
+            let detail =
+                format!("the array has {length} elements, another has {expected}: expected one length");
             (angle, Code::UnequalLengths, detail)
         }
         DirectionsError::TooMany { angle, length } => {
@@ -146,8 +147,13 @@ pub(crate) async fn brdf(
     answer(Quantity::Brdf, deadline, request).await
 }
 
-async fn answer(quantity: Quantity, deadline: Deadline, request: RadianceRequest) -> Result<Response, Problem> {
-    let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } = request;
+async fn answer(
+    quantity: Quantity,
+    deadline: Deadline,
+    request: RadianceRequest,
+) -> Result<Response, Problem> {
+    let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
+        request;
     let count = directions.count();
     compute::run(deadline, count, move || {
         let evaluation = evaluate(&scene, &directions, quantity, output.into());

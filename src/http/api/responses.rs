@@ -30,7 +30,10 @@ impl IntoResponses for GetProblems {
         list(&[
             (Kind::MalformedQuery, "The query is not readable."),
             (Kind::NotAcceptable, "No accepted media type is offered; the detail lists those that are."),
-            (Kind::InvalidRequest, "Parameters are out of range or inconsistent: `errors` points at every one."),
+            (
+                Kind::InvalidRequest,
+                "Parameters are out of range or inconsistent: `errors` points at every one.",
+            ),
             (Kind::TooSlow, "The answer was not ready within the time limit."),
         ])
     }

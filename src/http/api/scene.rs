@@ -88,7 +88,8 @@ object! {
 impl Wire for Sensor {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let Node::Object(object) = node else {
-            return reader.fail(Code::WrongType, mismatch(&node, &"an object that describes a patch or a camera"));
+            return reader
+                .fail(Code::WrongType, mismatch(&node, &"an object that describes a patch or a camera"));
         };
         let mut fields = Fields::new(object);
         let camera = is_camera(&fields);

@@ -51,7 +51,7 @@ pub(crate) trait WireObject: Sized {
     fn object_schema() -> Object {
         Self::properties(ObjectBuilder::new())
             .schema_type(Type::Object)
-            .description(Some(Self::DESCRIPTION))
+            .description(Some(prose(Self::DESCRIPTION)))
             .additional_properties(Some(AdditionalProperties::<Schema>::FreeForm(false)))
             .build()
     }
@@ -70,9 +70,14 @@ pub(crate) trait WireObject: Sized {
     }
 }
 
+/// The text of a doc comment as one paragraph.
+pub(crate) fn prose(doc: &str) -> String {
+    doc.lines().map(str::trim).collect::<Vec<_>>().join(" ").trim().to_owned()
+}
+
 /// Adds one field to a schema.
 pub(crate) fn property<T: Wire>(object: ObjectBuilder, name: &str, description: &str) -> ObjectBuilder {
-    let schema = described(T::schema(), description);
+    let schema = described(T::schema(), &prose(description));
     let object = object.property(name, schema);
     if T::OPTIONAL { object } else { object.required(name) }
 }
@@ -119,7 +124,7 @@ macro_rules! object {
 
         impl $crate::http::input::object::WireObject for $name {
             const NAME: &'static str = $wire_name;
-            const DESCRIPTION: &'static str = concat!($($doc, "\n"),*).trim_ascii();
+            const DESCRIPTION: &'static str = concat!($($doc, "\n"),*);
 
             fn take(
                 fields: &mut $crate::http::input::reader::Fields,
@@ -141,7 +146,7 @@ macro_rules! object {
                 object: utoipa::openapi::schema::ObjectBuilder,
             ) -> utoipa::openapi::schema::ObjectBuilder {
                 $( let object = $crate::http::input::object::property::<$type>(
-                    object, stringify!($field), concat!($($field_doc, "\n"),*).trim_ascii(),
+                    object, stringify!($field), concat!($($field_doc, "\n"),*),
                 ); )*
                 $( let object = <$base_type as $crate::http::input::object::WireObject>::properties(object); )?
                 object
@@ -156,7 +161,7 @@ macro_rules! object {
                 let mut parameters = Vec::new();
                 $( parameters.extend(<$type as $crate::http::input::wire::Wire>::parameters(
                     stringify!($field),
-                    concat!($($field_doc, "\n"),*).trim_ascii(),
+                    concat!($($field_doc, "\n"),*),
                     required && !<$type as $crate::http::input::wire::Wire>::OPTIONAL,
                 )); )*
                 $( parameters.extend(

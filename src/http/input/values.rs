@@ -26,7 +26,9 @@ impl<Q: Quantity> Wire for Angles<Q> {
         match node {
             Node::Array(_) => many(node, MAX_DIRECTIONS, reader).map(Self::Each),
             Node::Number(_) | Node::Text(_) => Q::read(node, reader).map(Self::One),
-            other => reader.fail(Code::WrongType, mismatch(&other, &format!("{}, or an array of such", Q::BOUNDS))),
+            other => {
+                reader.fail(Code::WrongType, mismatch(&other, &format!("{}, or an array of such", Q::BOUNDS)))
+            }
         }
     }
 
@@ -78,7 +80,8 @@ fn split(node: Node) -> Node {
 /// compared with that of others.
 fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec<Q>> {
     let Node::Array(array) = node else {
-        return reader.fail(Code::WrongType, mismatch(&node, &format!("an array, each element {}", Q::BOUNDS)));
+        return reader
+            .fail(Code::WrongType, mismatch(&node, &format!("an array, each element {}", Q::BOUNDS)));
     };
     if array.length == 0 {
         return reader.fail(Code::Empty, format!("the array is empty: expected from 1 to {most} elements"));
@@ -142,14 +145,15 @@ impl Wire for Medium {
         match node {
             Node::Text(text) if MEDIA.contains(&text.as_str()) => Some(Self::PerfectConductor),
             Node::Text(text) => {
-                let detail = format!("\"{}\" is not a medium: expected {expected}", super::node::excerpt(&text));
+                let detail =
+                    format!("\"{}\" is not a medium: expected {expected}", super::node::excerpt(&text));
                 reader.fail(Code::UnknownValue, detail)
             }
-            Node::Object(object) if object.fields.iter().any(|(name, _)| name == "material") => {
-                reader.within("material", |reader| {
-                    reader.fail(Code::NotOffered, format!("no materials are offered yet: expected {expected}"))
-                })
-            }
+            Node::Object(object) if object.fields.iter().any(|(name, _)| name == "material") => reader
+                .within("material", |reader| {
+                    reader
+                        .fail(Code::NotOffered, format!("no materials are offered yet: expected {expected}"))
+                }),
             Node::Object(_) => IndexWire::read_object(node, reader).and_then(index),
             other => reader.fail(Code::WrongType, mismatch(&other, &expected)),
         }
@@ -272,7 +276,8 @@ impl Wire for Polarization {
 
     fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
         let schema = named_schema::<NamedPolarization>();
-        let description = format!("{description} Or `parallel` and `perpendicular`, two shares that add up to 1.");
+        let description =
+            format!("{description} Or `parallel` and `perpendicular`, two shares that add up to 1.");
         let mut parameters = vec![Parameter { name, description, required, schema }];
         parameters.extend(MixWire::query_parameters(false));
         parameters
@@ -293,7 +298,8 @@ impl super::wire::Named for Shadowing {
 impl Wire for Shadowing {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         if node == Node::Text("smith".to_owned()) {
-            return reader.fail(Code::NotOffered, "\"smith\" is not offered yet: expected one of none, v_groove");
+            return reader
+                .fail(Code::NotOffered, "\"smith\" is not offered yet: expected one of none, v_groove");
         }
         read_named(&node, reader)
     }
