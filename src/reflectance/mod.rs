@@ -9,6 +9,7 @@ pub mod degrees;
 pub mod estimate;
 pub mod fresnel;
 pub mod geometry;
+pub mod image_irradiance;
 pub mod lambertian;
 pub mod numeric;
 pub mod quantity;

@@ -72,10 +72,11 @@ pub struct SmoothPlate {
 }
 
 impl SmoothPlate {
-    /// |E_2ss| of (32), E_o A |cos θ_i|/(λ R_o) with A = 4XY, in the unit of E_o. Relative error below 8 ε.
+    /// |E_2ss| of (32), E_o A cos θ_i/(λ R_o) with A = 4XY, in the unit of E_o; negative for a source behind the surface,
+    /// as printed. Relative error below 8 ε.
     pub fn specular_amplitude(&self, electric_amplitude: f64, cos_i: f64) -> f64 {
         let area = 4.0 * self.half_x * self.half_y;
-        electric_amplitude * (area / self.distance) * cos_i.abs() / self.wavelength
+        electric_amplitude * (area / self.distance) * cos_i / self.wavelength
     }
 
     /// E_2ss of (31), which is (30) integrated: i e^{ikR_o} times (32). The phase is k R_o reduced by whole waves; it is
