@@ -112,7 +112,7 @@ impl Patch {
     }
 
     /// ρ_o² with what the rounding of the two phases does to it.
-    fn rho_squared(&self, geometry: &Geometry) -> Estimate {
+    pub(super) fn rho_squared(&self, geometry: &Geometry) -> Estimate {
         let (front, back) = geometry.along_parts();
         let along = Phase::new(self.half_x, front + back, front.abs() + back.abs());
         let across = Phase::new(self.half_y, geometry.across(), geometry.across().abs());
