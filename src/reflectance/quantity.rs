@@ -87,6 +87,10 @@ quantities! {
     /// σ_α, degrees: the width of the density exp(−α²/2σ_α²) of the facet slope angle α, (58).
     /// As a density per solid angle it carries the scale c of (58).
     FacetSlope in FACET_SLOPE;
+    /// `σ_α` that (79) can turn into `σ_h`/T, degrees.
+    InvertibleFacetSlope in FACET_SLOPE_INVERTIBLE;
+    /// Beckmann's tan α₀ = 2`σ_h`/T, (77).
+    BeckmannAlpha in SLOPE_RATIO;
     /// γ of figure 10, degrees.
     OffAxis in OFF_AXIS;
     /// n of n − ik.
@@ -103,6 +107,15 @@ quantities! {
     Strength in STRENGTH;
     /// Relative tolerance.
     Tolerance in TOLERANCE;
+}
+
+impl Fraction {
+    /// None of it.
+    pub const ZERO: Self = Self(0.0);
+    /// Half of it.
+    pub const HALF: Self = Self(0.5);
+    /// All of it.
+    pub const ONE: Self = Self(1.0);
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
 const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// log10(2) rounded to 32 bits, and the rest.
 const LOG10_2_HIGH: f64 = f64::from_bits(0x3fd3_4413_5080_0000);
-const LOG10_2_LOW: f64 = -1.170_281_048_190_203e-10;
+const LOG10_2_LOW: f64 = 1.145_110_089_802_183_8e-10;
 
 impl Scaled {
     /// Exactly zero.
@@ -59,7 +59,8 @@ impl Scaled {
             if self.significand == 0.0 {
                 return Self { significand: self.significand, exponent: 0.0 };
             }
-            let raised = Self { significand: self.significand * 2f64.powi(64), exponent: self.exponent - 64.0 };
+            let raised =
+                Self { significand: self.significand * 2f64.powi(64), exponent: self.exponent - 64.0 };
             return raised.normalized();
         }
         if biased == 0x7ff {
@@ -132,11 +133,8 @@ impl Scaled {
 impl Mul for Scaled {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self {
-            significand: self.significand * other.significand,
-            exponent: self.exponent + other.exponent,
-        }
-        .normalized()
+        Self { significand: self.significand * other.significand, exponent: self.exponent + other.exponent }
+            .normalized()
     }
 }
 
@@ -150,11 +148,8 @@ impl Mul<f64> for Scaled {
 impl Div for Scaled {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        Self {
-            significand: self.significand / other.significand,
-            exponent: self.exponent - other.exponent,
-        }
-        .normalized()
+        Self { significand: self.significand / other.significand, exponent: self.exponent - other.exponent }
+            .normalized()
     }
 }
 

@@ -1,0 +1,23 @@
+//! Surface reflection by physical and geometrical optics, after S. K. Nayar, K. Ikeuchi and T. Kanade, *Surface
+//! Reflection: Physical and Geometrical Perspectives*, CMU-RI-TR-89-7 (1989).
+//!
+//! [`reflectance`] is the core: it knows the models and nothing of the service around it.
+//! Equation numbers in parentheses are the report's. Where the print is wrong the corrected form is the default.
+//!
+//! | equations | module |
+//! | --- | --- |
+//! | (1)-(3), (42)-(46), (51)-(56) | `radiometry` |
+//! | (4)-(9), (73) | `surface` |
+//! | (11), (12), (15), (30)-(32), (50) | `waves` |
+//! | (24), (25), (62)-(64) | [`reflectance::fresnel`] |
+//! | (28), (34), (36), (37), (59), (60), (76) | [`reflectance::geometry`] |
+//! | (33), (35), (38), (39), (47)-(49) | `beckmann_spizzichino` |
+//! | (41) | `fresnel_average` |
+//! | (57) | [`reflectance::lambertian`] |
+//! | (65) | [`reflectance::shadowing`] |
+//! | (58), (61), (66)-(72) | `torrance_sparrow` |
+//! | section 5.1 | `unified` |
+//! | (74), (80) | `image_irradiance` |
+//! | (78), (79) | [`reflectance::roughness`] |
+
+pub mod reflectance;

@@ -1,0 +1,454 @@
+//! Fresnel's laws (24), (25) for a relative complex refractive index, their energies (62) and the mix (63).
+//!
+//! The magnetic permeabilities on both sides are taken as equal, so that the report's Y is the relative index
+//! (errata E10). Each energy comes with a bound of its absolute error that holds for cosines and sines
+//! known to [`ANGLE_ERROR`]: relative accuracy is lost next to Brewster's angle, the critical angle and n = 1,
+//! and the bound says how much.
+
+use super::UNIT_ROUNDOFF;
+use super::degrees::SinCos;
+use super::quantity::{Fraction, IndexK, IndexN};
+use core::fmt;
+
+/// Relative error that the sine and the cosine of the angle of incidence are allowed, 8 ε: those of
+/// [`super::geometry::Geometry::local_incidence`] stay below it.
+pub const ANGLE_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
+
+/// n − ik, the index of the lower medium relative to the upper one; k ≥ 0 absorbs. Energies are those of
+/// n + ik as well (errata E5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RefractiveIndex {
+    /// n
+    pub n: IndexN,
+    /// k
+    pub k: IndexK,
+}
+
+/// What the surface is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Medium {
+    /// Y → ∞ in (24), (25): F_para = 1 and F_perp = −1 at every angle.
+    PerfectConductor,
+    /// A dielectric (k = 0) or a metal.
+    Index(RefractiveIndex),
+}
+
+/// The sign of i in the fields' time factor, which decides which of n ∓ ik is passive (errata E5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TimeFactor {
+    /// e^{+iωt}, as in (10): passive media are n − ik.
+    Positive,
+    /// e^{−iωt}, as in (21): passive media are n + ik.
+    Negative,
+}
+
+/// A complex number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Complex {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part.
+    pub im: f64,
+}
+
+impl Complex {
+    fn norm(self) -> f64 {
+        libm::hypot(self.re, self.im)
+    }
+
+    fn times(self, other: Self) -> Self {
+        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        Self { re: self.re * factor, im: self.im * factor }
+    }
+
+    /// The root in the right half plane for an imaginary part that is not positive; the negative real axis goes to −i√,
+    /// the limit from below.
+    fn root_of_lower_half_plane(self) -> Self {
+        let size = self.norm();
+        if size == 0.0 {
+            return Self { re: 0.0, im: 0.0 };
+        }
+        // Of |re root| and |im root| the larger is formed without cancellation.
+        let larger = (0.5 * (size + self.re.abs())).sqrt();
+        let smaller = -0.5 * self.im / larger;
+        if self.re >= 0.0 { Self { re: larger, im: -smaller } } else { Self { re: smaller, im: -larger } }
+    }
+}
+
+/// Field reflection coefficients (24) and (25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fields {
+    /// F_para
+    pub parallel: Complex,
+    /// F_perp
+    pub perpendicular: Complex,
+}
+
+/// A reflected share of energy and the bound of its absolute error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energy {
+    /// Between 0 and 1.
+    pub value: f64,
+    /// |value − exact| is not larger.
+    pub error: f64,
+}
+
+impl Energy {
+    /// All of it, exactly.
+    pub const ONE: Self = Self { value: 1.0, error: 0.0 };
+    /// None of it, exactly.
+    pub const ZERO: Self = Self { value: 0.0, error: 0.0 };
+
+    /// A share lies between 0 and 1, and so does its error. The smallest normal number covers what underflowed.
+    fn new(value: f64, error: f64) -> Self {
+        Self { value: value.min(1.0), error: (error + f64::MIN_POSITIVE).min(1.0) }
+    }
+}
+
+/// Energy reflectances (62).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energies {
+    /// F′_para
+    pub parallel: Energy,
+    /// F′_perp
+    pub perpendicular: Energy,
+}
+
+impl Energies {
+    /// F′ of (63).
+    pub fn mixed(&self, polarization: Polarization) -> Energy {
+        let (h, v) = (polarization.h(), polarization.v());
+        let value = h * self.parallel.value + v * self.perpendicular.value;
+        // h + v may miss 1 by SUM_SLACK; two products and a sum.
+        let rounding = if h == 1.0 || v == 1.0 { 0.0 } else { 3.0 * UNIT_ROUNDOFF * value };
+        Energy::new(value, h * self.parallel.error + v * self.perpendicular.error + rounding)
+    }
+}
+
+/// Shares h and v of the incident energy that are polarized parallel and perpendicular to the plane of incidence
+/// *of the facet*, (63), (64); energies, not amplitudes (errata E35).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polarization {
+    parallel: Fraction,
+    perpendicular: Fraction,
+}
+
+/// h + v of (64) is not 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotNormalized {
+    /// h + v
+    pub sum: f64,
+}
+
+impl fmt::Display for NotNormalized {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the shares of parallel and perpendicular light add up to {}: expected 1", self.sum)
+    }
+}
+
+impl core::error::Error for NotNormalized {}
+
+/// Two decimal fractions that add up to 1, each rounded to f64, miss it by 2 ε at most, and their sum by 1 ε more.
+const SUM_SLACK: f64 = 4.0 * UNIT_ROUNDOFF;
+
+impl Polarization {
+    /// h and v as given; they must add up to 1.
+    pub fn mix(h: Fraction, v: Fraction) -> Result<Self, NotNormalized> {
+        let sum = h.get() + v.get();
+        if (sum - 1.0).abs() <= SUM_SLACK {
+            Ok(Self { parallel: h, perpendicular: v })
+        } else {
+            Err(NotNormalized { sum })
+        }
+    }
+
+    /// h = v = 1/2.
+    pub fn unpolarized() -> Self {
+        Self { parallel: Fraction::HALF, perpendicular: Fraction::HALF }
+    }
+
+    /// h = 1.
+    pub fn parallel() -> Self {
+        Self { parallel: Fraction::ONE, perpendicular: Fraction::ZERO }
+    }
+
+    /// v = 1.
+    pub fn perpendicular() -> Self {
+        Self { parallel: Fraction::ZERO, perpendicular: Fraction::ONE }
+    }
+
+    /// The share polarized parallel to the plane of incidence.
+    pub fn h(self) -> f64 {
+        self.parallel.get()
+    }
+
+    /// The share polarized perpendicular to it.
+    pub fn v(self) -> f64 {
+        self.perpendicular.get()
+    }
+}
+
+impl Medium {
+    /// F′ of (63) at an angle of incidence between 0 and 90°.
+    pub fn reflectance(&self, incidence: SinCos, polarization: Polarization) -> Energy {
+        match self {
+            // h + v is 1 by meaning, if not in the last digit.
+            Self::PerfectConductor => Energy::ONE,
+            Self::Index(index) => index.energies(incidence).mixed(polarization),
+        }
+    }
+
+    /// The energies (62).
+    pub fn energies(&self, incidence: SinCos) -> Energies {
+        match self {
+            Self::PerfectConductor => Energies { parallel: Energy::ONE, perpendicular: Energy::ONE },
+            Self::Index(index) => index.energies(incidence),
+        }
+    }
+
+    /// The field coefficients (24), (25).
+    pub fn fields(&self, incidence: SinCos, time_factor: TimeFactor) -> Fields {
+        match self {
+            Self::PerfectConductor => Fields {
+                parallel: Complex { re: 1.0, im: 0.0 },
+                perpendicular: Complex { re: -1.0, im: 0.0 },
+            },
+            Self::Index(index) => index.fields(incidence, time_factor),
+        }
+    }
+}
+
+/// What (24) and (25) are made of, for n − ik; nothing in it cancels.
+struct Parts {
+    /// Y² − 1
+    contrast: Complex,
+    /// Y² cos²θ − sin²θ, zero at Brewster's angle
+    brewster: Complex,
+    /// cos θ + √(Y² − sin²θ)
+    perpendicular: Complex,
+    /// Y² cos θ + √(Y² − sin²θ)
+    parallel: Complex,
+    /// √(Y² − sin²θ)
+    root: Complex,
+}
+
+impl RefractiveIndex {
+    /// Whether both media are the same, so that there is no surface: F = 0 at every angle.
+    fn is_no_surface(self) -> bool {
+        self.n.get() == 1.0 && self.k.get() == 0.0
+    }
+
+    fn parts(self, SinCos { sin: s, cos: c }: SinCos) -> Parts {
+        let (n, k) = (self.n.get(), self.k.get());
+        let absorption = -2.0 * n * k;
+        let contrast = Complex { re: (n - 1.0) * (n + 1.0) - k * k, im: absorption };
+        let (nc, kc) = (n * c, k * c);
+        let brewster = Complex { re: (nc - s) * (nc + s) - kc * kc, im: absorption * c * c };
+        let root = Complex { re: (n - s) * (n + s) - k * k, im: absorption }.root_of_lower_half_plane();
+        let optical_cos = Complex { re: (n - k) * (n + k), im: absorption }.scaled(c);
+        Parts {
+            contrast,
+            brewster,
+            perpendicular: Complex { re: c + root.re, im: root.im },
+            parallel: Complex { re: optical_cos.re + root.re, im: optical_cos.im + root.im },
+            root,
+        }
+    }
+
+    /// The energies (62) as |Y² − 1|² |Y² c² − s²|²/|Y² c + root|⁴ and |Y² − 1|²/|c + root|⁴.
+    ///
+    /// Domain: sine s and cosine c in [0, 1], each known to [`ANGLE_ERROR`]. Beyond the critical angle of a medium
+    /// without absorption both are exactly 1.
+    pub fn energies(self, incidence: SinCos) -> Energies {
+        let SinCos { sin: s, cos: c } = incidence;
+        let (n, k) = (self.n.get(), self.k.get());
+        if self.is_no_surface() {
+            return Energies { parallel: Energy::ZERO, perpendicular: Energy::ZERO };
+        }
+        if k == 0.0 && n < s * (1.0 - 2.0 * ANGLE_ERROR) {
+            return Energies { parallel: Energy::ONE, perpendicular: Energy::ONE };
+        }
+        let parts = self.parts(incidence);
+        let root_error = root_error(n, k, s, parts.root.norm());
+        let contrast = parts.contrast.norm();
+
+        let sum = parts.perpendicular.norm();
+        let field = contrast / sum / sum;
+        let e_perp = field * field;
+        let perp_error = e_perp * fourth_power_error((ANGLE_ERROR * c + root_error) / sum);
+
+        let sum = parts.parallel.norm();
+        let (brewster, brewster_error) = (parts.brewster.norm(), brewster_error(n, k, s, c));
+        let scale = contrast / sum / sum;
+        let field = scale * brewster;
+        let e_para = field * field;
+        // |B + Δ|² − |B|² ≤ (2|B| + Δ)Δ: absolute, because B is zero at Brewster's angle.
+        let zero_error = scale * brewster_error * (scale * (2.0 * brewster + brewster_error));
+        let relative = fourth_power_error(
+            (ANGLE_ERROR + 5.0 * UNIT_ROUNDOFF) * (n * n + k * k) * c / sum + root_error / sum,
+        );
+        let para_error = zero_error * (1.0 + relative) + e_para * relative;
+
+        Energies { parallel: Energy::new(e_para, para_error), perpendicular: Energy::new(e_perp, perp_error) }
+    }
+
+    /// The field coefficients (24), (25) for n − ik or n + ik by the sign of the time factor.
+    ///
+    /// Domain as [`Self::energies`]. The error is measured as a distance in the complex plane.
+    pub fn fields(self, incidence: SinCos, time_factor: TimeFactor) -> Fields {
+        if self.is_no_surface() {
+            let zero = Complex { re: 0.0, im: 0.0 };
+            return Fields { parallel: zero, perpendicular: zero };
+        }
+        let parts = self.parts(incidence);
+        let over_square = |numerator: Complex, sum: Complex| {
+            let size = sum.norm();
+            let conjugate = Complex { re: sum.re / size, im: -sum.im / size };
+            numerator.scaled(1.0 / size).times(conjugate).times(conjugate).scaled(1.0 / size)
+        };
+        let contrast = parts.contrast;
+        let perpendicular = over_square(Complex { re: -contrast.re, im: -contrast.im }, parts.perpendicular);
+        let parallel = over_square(contrast.times(parts.brewster), parts.parallel);
+        let sign = match time_factor {
+            TimeFactor::Positive => 1.0,
+            TimeFactor::Negative => -1.0,
+        };
+        let turned = |f: Complex| Complex { re: f.re, im: sign * f.im };
+        Fields { parallel: turned(parallel), perpendicular: turned(perpendicular) }
+    }
+}
+
+/// Absolute error of √(Y² − s²), from that of the radicand: s² carries 2 [`ANGLE_ERROR`], the rest roundings.
+fn root_error(n: f64, k: f64, s: f64, root: f64) -> f64 {
+    let radicand =
+        2.0 * ANGLE_ERROR * s * s + 4.0 * UNIT_ROUNDOFF * (((n - s) * (n + s)).abs() + k * k + 2.0 * n * k);
+    // Both roots lie in one quadrant, so |a − b| ≤ |a² − b²|/|a| and |a − b| ≤ √|a² − b²|.
+    let from_radicand = if root * root > radicand { radicand / root } else { radicand.sqrt() };
+    from_radicand + 4.0 * UNIT_ROUNDOFF * root
+}
+
+/// Absolute error of Y² c² − s²: each square carries 2 [`ANGLE_ERROR`] and up to 6 roundings.
+fn brewster_error(n: f64, k: f64, s: f64, c: f64) -> f64 {
+    let reach = (n + k) * c;
+    (2.0 * ANGLE_ERROR + 6.0 * UNIT_ROUNDOFF) * (reach * reach + s * s)
+}
+
+/// Relative error of an energy whose denominator, a fourth power, is known to the relative `error` before it is
+/// raised: (1 − d)⁻⁴ − 1 ≤ 4d/(1 − d)⁴, and the roundings of |Y² − 1|² (16 ε), of the sums and of the quotients.
+fn fourth_power_error(error: f64) -> f64 {
+    let d = error + 2.0 * UNIT_ROUNDOFF;
+    if d < 0.5 {
+        let rest = (1.0 - d) * (1.0 - d);
+        4.0 * d / (rest * rest) + 28.0 * UNIT_ROUNDOFF
+    } else {
+        // Nothing is known; the bound of the energy is cut at 1.
+        1e150
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Energy, Medium, Polarization, RefractiveIndex, TimeFactor};
+    use crate::reflectance::UNIT_ROUNDOFF;
+    use crate::reflectance::degrees::SinCos;
+    use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
+
+    fn index(n: f64, k: f64) -> RefractiveIndex {
+        RefractiveIndex { n: IndexN::new(n).unwrap(), k: IndexK::new(k).unwrap() }
+    }
+
+    fn close(energy: Energy, exact: f64) -> bool {
+        (energy.value - exact).abs() <= energy.error && energy.error < 100.0 * UNIT_ROUNDOFF
+    }
+
+    #[test]
+    fn glass_at_normal_incidence() {
+        let energies = index(1.5, 0.0).energies(SinCos::of_degrees(0.0));
+        assert!(close(energies.parallel, 0.04) && close(energies.perpendicular, 0.04), "{energies:?}");
+        // |(1 − Y)/(1 + Y)|² for 1 − 2i: |2i|²/|2 − 2i|² = 1/2.
+        let energies = index(1.0, 2.0).energies(SinCos::of_degrees(0.0));
+        assert!(close(energies.parallel, 0.5) && close(energies.perpendicular, 0.5), "{energies:?}");
+    }
+
+    #[test]
+    fn sixty_degrees_on_an_index_of_root_three_is_brewsters_angle() {
+        // tan 60° = √3: E_perp is cos²(2·60°) = 1/4, E_para 0.
+        let energies = index(3f64.sqrt(), 0.0).energies(SinCos::of_degrees(60.0));
+        assert!(energies.parallel.value <= energies.parallel.error, "{energies:?}");
+        assert!(energies.parallel.error < 1e-29, "{energies:?}");
+        assert!(close(energies.perpendicular, 0.25), "{energies:?}");
+    }
+
+    #[test]
+    fn total_reflection_is_total() {
+        for angle in [41.9, 60.0, 89.9999, 90.0] {
+            let energies = index(1.0 / 1.5, 0.0).energies(SinCos::of_degrees(angle));
+            assert_eq!(energies.parallel, Energy::ONE);
+            assert_eq!(energies.perpendicular, Energy::ONE);
+        }
+        let below = index(1.0 / 1.5, 0.0).energies(SinCos::of_degrees(41.0));
+        assert!(below.parallel.value < 0.5 && below.perpendicular.value < 0.9, "{below:?}");
+    }
+
+    #[test]
+    fn grazing_incidence_reflects_everything() {
+        for (n, k) in [(1.5, 0.0), (1e-9, 0.0), (1e9, 0.0), (0.2, 3.4), (1e-9, 1e9), (1.0, 1e-300)] {
+            let energies = index(n, k).energies(SinCos::of_degrees(90.0));
+            assert!((energies.parallel.value - 1.0).abs() <= energies.parallel.error, "{n} {k} {energies:?}");
+            assert!((energies.perpendicular.value - 1.0).abs() <= energies.perpendicular.error, "{n} {k}");
+        }
+    }
+
+    #[test]
+    fn equal_media_have_no_surface() {
+        for angle in [0.0, 45.0, 90.0] {
+            let energies = index(1.0, 0.0).energies(SinCos::of_degrees(angle));
+            assert_eq!((energies.parallel, energies.perpendicular), (Energy::ZERO, Energy::ZERO));
+        }
+    }
+
+    #[test]
+    fn fields_square_to_energies_and_are_conjugate() {
+        for (n, k) in [(1.5, 0.0), (0.66, 0.0), (0.2, 3.4), (2.0, 1e-3)] {
+            for angle in [0.0, 20.0, 50.0, 80.0] {
+                let (medium, incidence) = (Medium::Index(index(n, k)), SinCos::of_degrees(angle));
+                let (below, above) = (
+                    medium.fields(incidence, TimeFactor::Positive),
+                    medium.fields(incidence, TimeFactor::Negative),
+                );
+                let energies = medium.energies(incidence);
+                for (a, b, energy) in [
+                    (below.parallel, above.parallel, energies.parallel),
+                    (below.perpendicular, above.perpendicular, energies.perpendicular),
+                ] {
+                    assert_eq!((a.re, a.im), (b.re, -b.im));
+                    let square = a.re * a.re + a.im * a.im;
+                    // Two different roundings of one product of seven factors.
+                    let slack = energy.error + 30.0 * UNIT_ROUNDOFF * energy.value;
+                    assert!((square - energy.value).abs() <= slack, "{n} {k} {angle}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_perfect_conductor_turns_the_perpendicular_field_round() {
+        let fields = Medium::PerfectConductor.fields(SinCos::of_degrees(33.0), TimeFactor::Positive);
+        assert_eq!((fields.parallel.re, fields.perpendicular.re), (1.0, -1.0));
+        let mix = Polarization::unpolarized();
+        assert_eq!(Medium::PerfectConductor.reflectance(SinCos::of_degrees(33.0), mix), Energy::ONE);
+    }
+
+    #[test]
+    fn shares_add_up_to_one() {
+        let share = |value| Fraction::new(value).unwrap();
+        for (h, v) in [(0.1, 0.9), (0.7, 0.3), (1.0, 0.0), (1.0 / 3.0, 2.0 / 3.0)] {
+            assert!(Polarization::mix(share(h), share(v)).is_ok(), "{h} {v}");
+        }
+        let refused = Polarization::mix(share(0.5), share(0.4)).unwrap_err();
+        assert!(refused.to_string().contains("add up to 0.9"), "{refused}");
+    }
+}

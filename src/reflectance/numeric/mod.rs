@@ -1,0 +1,3 @@
+//! Arithmetic and quadrature that the models share.
+
+pub mod scaled;
