@@ -135,6 +135,14 @@ impl Line<'_> {
         self.add(output.to_owned(), computed, measure::absolute_units(computed, &exact, scale));
     }
 
+    /// A bound stated beside a value: |computed − exact| must not exceed it.
+    pub fn bound(&self, output: &'static str, computed: f64, bound: f64) {
+        let error = measure::difference(computed, &self.row.exact(output)).abs();
+        if !(error <= bound) {
+            self.fail(output, &format!("= {computed:e} is {error:e} off, stated {bound:e}"));
+        }
+    }
+
     /// A predicate, or `None` where it is undefined.
     pub fn truth(&self, output: &'static str, computed: Option<bool>) {
         self.seen.borrow_mut().insert(output);
