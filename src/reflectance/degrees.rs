@@ -4,7 +4,7 @@
 
 /// π/180 in two parts whose sum has 107 bits.
 const DEGREE_HIGH: f64 = 0.017_453_292_519_943_295;
-const DEGREE_LOW: f64 = 2.948_652_270_830_147e-19;
+const DEGREE_LOW: f64 = 2.948_652_270_870_168_6e-19;
 
 /// Sine and cosine of one angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,7 @@ pub fn to_radians(angle: f64) -> f64 {
 pub fn from_radians(angle: f64) -> f64 {
     /// 180/π in two parts.
     const HIGH: f64 = 57.295_779_513_082_32;
-    const LOW: f64 = -1.987_849_567_057_628_3e-15;
+    const LOW: f64 = -1.987_849_567_057_628_5e-15;
     let high = angle * HIGH;
     high + (libm::fma(angle, HIGH, -high) + angle * LOW)
 }

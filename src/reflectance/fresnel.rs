@@ -5,14 +5,15 @@
 //! known to [`ANGLE_ERROR`]: relative accuracy is lost next to Brewster's angle, the critical angle and n = 1,
 //! and the bound says how much.
 
-use super::UNIT_ROUNDOFF;
 use super::degrees::SinCos;
+use super::estimate::Estimate;
+use super::numeric::{EPSILON, scaled::Scaled};
 use super::quantity::{Fraction, IndexK, IndexN};
 use core::fmt;
 
 /// Relative error that the sine and the cosine of the angle of incidence are allowed, 8 ε: those of
 /// [`super::geometry::Geometry::local_incidence`] stay below it.
-pub const ANGLE_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
+pub const ANGLE_ERROR: f64 = 8.0 * EPSILON;
 
 /// n − ik, the index of the lower medium relative to the upper one; k ≥ 0 absorbs. Energies are those of
 /// n + ik as well (errata E5).
@@ -108,6 +109,12 @@ impl Energy {
     }
 }
 
+impl From<Energy> for Estimate {
+    fn from(energy: Energy) -> Self {
+        Self { value: Scaled::new(energy.value), error: Scaled::new(energy.error) }
+    }
+}
+
 /// Energy reflectances (62).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Energies {
@@ -123,7 +130,7 @@ impl Energies {
         let (h, v) = (polarization.h(), polarization.v());
         let value = h * self.parallel.value + v * self.perpendicular.value;
         // h + v may miss 1 by SUM_SLACK; two products and a sum.
-        let rounding = if h == 1.0 || v == 1.0 { 0.0 } else { 3.0 * UNIT_ROUNDOFF * value };
+        let rounding = if h == 1.0 || v == 1.0 { 0.0 } else { 3.0 * EPSILON * value };
         Energy::new(value, h * self.parallel.error + v * self.perpendicular.error + rounding)
     }
 }
@@ -152,7 +159,7 @@ impl fmt::Display for NotNormalized {
 impl core::error::Error for NotNormalized {}
 
 /// Two decimal fractions that add up to 1, each rounded to f64, miss it by 2 ε at most, and their sum by 1 ε more.
-const SUM_SLACK: f64 = 4.0 * UNIT_ROUNDOFF;
+const SUM_SLACK: f64 = 4.0 * EPSILON;
 
 impl Polarization {
     /// h and v as given; they must add up to 1.
@@ -287,9 +294,8 @@ impl RefractiveIndex {
         let e_para = field * field;
         // |B + Δ|² − |B|² ≤ (2|B| + Δ)Δ: absolute, because B is zero at Brewster's angle.
         let zero_error = scale * brewster_error * (scale * (2.0 * brewster + brewster_error));
-        let relative = fourth_power_error(
-            (ANGLE_ERROR + 5.0 * UNIT_ROUNDOFF) * (n * n + k * k) * c / sum + root_error / sum,
-        );
+        let relative =
+            fourth_power_error((ANGLE_ERROR + 5.0 * EPSILON) * (n * n + k * k) * c / sum + root_error / sum);
         let para_error = zero_error * (1.0 + relative) + e_para * relative;
 
         Energies { parallel: Energy::new(e_para, para_error), perpendicular: Energy::new(e_perp, perp_error) }
@@ -324,25 +330,25 @@ impl RefractiveIndex {
 /// Absolute error of √(Y² − s²), from that of the radicand: s² carries 2 [`ANGLE_ERROR`], the rest roundings.
 fn root_error(n: f64, k: f64, s: f64, root: f64) -> f64 {
     let radicand =
-        2.0 * ANGLE_ERROR * s * s + 4.0 * UNIT_ROUNDOFF * (((n - s) * (n + s)).abs() + k * k + 2.0 * n * k);
+        2.0 * ANGLE_ERROR * s * s + 4.0 * EPSILON * (((n - s) * (n + s)).abs() + k * k + 2.0 * n * k);
     // Both roots lie in one quadrant, so |a − b| ≤ |a² − b²|/|a| and |a − b| ≤ √|a² − b²|.
     let from_radicand = if root * root > radicand { radicand / root } else { radicand.sqrt() };
-    from_radicand + 4.0 * UNIT_ROUNDOFF * root
+    from_radicand + 4.0 * EPSILON * root
 }
 
 /// Absolute error of Y² c² − s²: each square carries 2 [`ANGLE_ERROR`] and up to 6 roundings.
 fn brewster_error(n: f64, k: f64, s: f64, c: f64) -> f64 {
     let reach = (n + k) * c;
-    (2.0 * ANGLE_ERROR + 6.0 * UNIT_ROUNDOFF) * (reach * reach + s * s)
+    (2.0 * ANGLE_ERROR + 6.0 * EPSILON) * (reach * reach + s * s)
 }
 
 /// Relative error of an energy whose denominator, a fourth power, is known to the relative `error` before it is
 /// raised: (1 − d)⁻⁴ − 1 ≤ 4d/(1 − d)⁴, and the roundings of |Y² − 1|² (16 ε), of the sums and of the quotients.
 fn fourth_power_error(error: f64) -> f64 {
-    let d = error + 2.0 * UNIT_ROUNDOFF;
+    let d = error + 2.0 * EPSILON;
     if d < 0.5 {
         let rest = (1.0 - d) * (1.0 - d);
-        4.0 * d / (rest * rest) + 28.0 * UNIT_ROUNDOFF
+        4.0 * d / (rest * rest) + 28.0 * EPSILON
     } else {
         // Nothing is known; the bound of the energy is cut at 1.
         1e150
@@ -352,8 +358,8 @@ fn fourth_power_error(error: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Energy, Medium, Polarization, RefractiveIndex, TimeFactor};
-    use crate::reflectance::UNIT_ROUNDOFF;
     use crate::reflectance::degrees::SinCos;
+    use crate::reflectance::numeric::EPSILON;
     use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
 
     fn index(n: f64, k: f64) -> RefractiveIndex {
@@ -361,7 +367,7 @@ mod tests {
     }
 
     fn close(energy: Energy, exact: f64) -> bool {
-        (energy.value - exact).abs() <= energy.error && energy.error < 100.0 * UNIT_ROUNDOFF
+        (energy.value - exact).abs() <= energy.error && energy.error < 100.0 * EPSILON
     }
 
     #[test]
@@ -427,7 +433,7 @@ mod tests {
                     assert_eq!((a.re, a.im), (b.re, -b.im));
                     let square = a.re * a.re + a.im * a.im;
                     // Two different roundings of one product of seven factors.
-                    let slack = energy.error + 30.0 * UNIT_ROUNDOFF * energy.value;
+                    let slack = energy.error + 30.0 * EPSILON * energy.value;
                     assert!((square - energy.value).abs() <= slack, "{n} {k} {angle}");
                 }
             }

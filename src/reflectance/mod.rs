@@ -1,17 +1,23 @@
 //! The report's models in f64, each value with the bound of its error.
 //!
 //! Numbers are parsed once, into the types of [`quantity`]; past that point nothing can fail.
-//! Errors are stated in units of ε = 2⁻⁵³, the largest relative error of one rounding.
+//! Errors are stated in units of ε = 2⁻⁵³ ([`numeric::EPSILON`]), the largest relative error of one rounding.
 
+pub mod beckmann_spizzichino;
 pub mod bounds;
 pub mod degrees;
+pub mod estimate;
 pub mod fresnel;
 pub mod geometry;
+pub mod image_irradiance;
 pub mod lambertian;
 pub mod numeric;
 pub mod quantity;
+pub mod radiometry;
 pub mod roughness;
+pub mod scene;
 pub mod shadowing;
-
-/// ε = 2⁻⁵³: the largest relative error of one rounding to nearest.
-pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+pub mod surface;
+pub mod torrance_sparrow;
+pub mod unified;
+pub mod waves;

@@ -143,7 +143,7 @@ mod tests {
     use crate::reflectance::quantity::{
         BeckmannAlpha, CorrelationLength, InvertibleFacetSlope, Quantity, RmsHeight,
     };
-    use crate::reflectance::{UNIT_ROUNDOFF, bounds};
+    use crate::reflectance::{bounds, numeric::EPSILON};
 
     fn heights(rms_height: f64, correlation_length: f64) -> Widths {
         Widths::from_heights(
@@ -168,17 +168,14 @@ mod tests {
             let sigma = facet_slope_radians(ratio);
             let back = height_to_length_ratio(sigma).unwrap();
             let condition = libm::atan(2.0 * ratio) * (1.0 + 4.0 * ratio * ratio) / (2.0 * ratio);
-            assert!((back / ratio - 1.0).abs() <= (8.0 + 5.0 * condition) * UNIT_ROUNDOFF, "{ratio} {back}");
+            assert!((back / ratio - 1.0).abs() <= (8.0 + 5.0 * condition) * EPSILON, "{ratio} {back}");
             let widths =
                 Widths::from_facet_slope(InvertibleFacetSlope::new(sigma.to_degrees()).unwrap_or_else(
                     |_| InvertibleFacetSlope::new(bounds::FACET_SLOPE_INVERTIBLE.min).unwrap(),
                 ));
             if sigma.to_degrees() >= bounds::FACET_SLOPE_INVERTIBLE.min {
                 let back = widths.height_to_length.get();
-                assert!(
-                    (back / ratio - 1.0).abs() <= (8.0 + 8.0 * condition) * UNIT_ROUNDOFF,
-                    "{ratio} {back}"
-                );
+                assert!((back / ratio - 1.0).abs() <= (8.0 + 8.0 * condition) * EPSILON, "{ratio} {back}");
             }
         }
     }
@@ -211,6 +208,6 @@ mod tests {
         let slope = InvertibleFacetSlope::new(from_heights.facet_slope.get()).unwrap();
         let back = Widths::from_facet_slope(slope);
         // 4 ε for the width, 8 ε for the inverse, whose condition is below 1.01 here.
-        assert!((back.rms_slope.get() / from_heights.rms_slope.get() - 1.0).abs() < 16.0 * UNIT_ROUNDOFF);
+        assert!((back.rms_slope.get() / from_heights.rms_slope.get() - 1.0).abs() < 16.0 * EPSILON);
     }
 }

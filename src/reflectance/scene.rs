@@ -337,6 +337,8 @@ fn missing(p: &SceneParameters, evaluated: &[Component]) -> Vec<SceneError> {
     needs
         .into_iter()
         .filter(|(_, absent, _)| *absent)
-        .filter_map(|(parameter, _, needed_by)| Some(SceneError::Missing { parameter, needed_by: needed_by? }))
+        .filter_map(|(parameter, _, needed_by)| {
+            Some(SceneError::Missing { parameter, needed_by: needed_by? })
+        })
         .collect()
 }

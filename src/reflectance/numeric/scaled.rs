@@ -16,7 +16,7 @@ const EXPONENT_BITS: u64 = 0x7ff0_0000_0000_0000;
 const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
 /// ln 2 in two parts, the first with 21 trailing zero bits: its products with integers below 2^21 are exact.
 const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
-const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+const LN2_LOW: f64 = 1.908_214_929_270_587_8e-10;
 /// log10(2) rounded to 32 bits, and the rest.
 const LOG10_2_HIGH: f64 = f64::from_bits(0x3fd3_4413_5080_0000);
 const LOG10_2_LOW: f64 = 1.145_110_089_802_183_8e-10;

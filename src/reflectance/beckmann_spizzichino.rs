@@ -1,0 +1,139 @@
+//! The Beckmann-Spizzichino physical-optics model, (28)-(39) and (47)-(49): specular spike and
+//! specular lobe of a surface of Gaussian heights.
+//!
+//! Radiances are per unit irradiance of the beam, ½ √(ε/μ) E₀² of (15) (errata E4), so that the
+//! report's wave impedance and field amplitude never enter. The lobe carries D², the spike is
+//! (47) as printed, without it (errata E15).
+
+use super::estimate::Estimate;
+use super::geometry::Geometry;
+use super::numeric::EPSILON;
+use super::numeric::lobe_series::{self, LobeSeries, Method};
+use super::numeric::scaled::Scaled;
+use super::numeric::sinc::sinc;
+use core::f64::consts::PI;
+
+/// The surface's two lengths over the wavelength; all that the model depends on besides angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RelativeRoughness {
+    /// σ_h/λ: standard deviation of the Gaussian height density (4); 0 is a perfect mirror.
+    pub height: f64,
+    /// T/λ: distance at which the autocorrelation (5) falls to 1/e.
+    pub correlation_length: f64,
+}
+
+/// Rounding of the prefactors and of g and x, in ε: what (34), (36) and (47) cost when evaluated
+/// as below, every operation at its worst.
+const PREFACTOR_UNITS: f64 = 64.0;
+const G_UNITS: f64 = 16.0;
+const X_UNITS: f64 = 24.0;
+const ALONG_UNITS: f64 = 12.0;
+
+impl RelativeRoughness {
+    /// g of (34), the roughness the light sees between these directions.
+    pub fn g(&self, geometry: &Geometry) -> f64 {
+        let root = 2.0 * PI * self.height * geometry.cos_sum;
+        root * root
+    }
+
+    /// x = v_xy² T²/4, the exponent of (33) times m.
+    pub fn x(&self, geometry: &Geometry) -> f64 {
+        let root = PI * self.correlation_length * geometry.horizontal;
+        root * root
+    }
+
+    /// The specular lobe of (47) over the irradiance, per steradian, with the method that made S.
+    /// Infinite at θ_r = 90° unless the surface is a mirror.
+    pub fn lobe(&self, geometry: &Geometry, method: Method, tolerance: f64) -> (Estimate, Method) {
+        let (g, x) = (self.g(geometry), self.x(geometry));
+        let series = lobe_series::evaluate(method, g, x, tolerance);
+        (self.lobe_of(geometry, &series), series.method)
+    }
+
+    /// (47)'s second term from a value of S: π/4 · (T/λ)² · (q (1 + tan² α))² · S/cos θ_r. The
+    /// fourth of that square is cos² θ_i D².
+    fn lobe_of(&self, geometry: &Geometry, series: &LobeSeries) -> Estimate {
+        if geometry.cos_r == 0.0 {
+            return if series.value.is_zero() { Estimate::UNDEFINED } else { Estimate::INFINITE };
+        }
+        let length = Scaled::new(geometry.length());
+        let facet_factor = length.squared() / Scaled::new(geometry.cos_sum);
+        let patch = Scaled::new(self.correlation_length) * facet_factor;
+        let value = patch.squared() * (0.25 * PI) * series.value / Scaled::new(geometry.cos_r);
+        let log_error = series.relative_error
+            + EPSILON * (PREFACTOR_UNITS + G_UNITS * series.condition_g + X_UNITS * series.condition_x);
+        Estimate::within(value, log_error)
+    }
+
+    /// The specular spike of (47) over the irradiance, per steradian.
+    pub fn spike(&self, geometry: &Geometry, patch: &Patch) -> Estimate {
+        if geometry.cos_r == 0.0 || !patch.is_finite() {
+            return if geometry.cos_i == 0.0 { Estimate::UNDEFINED } else { Estimate::INFINITE };
+        }
+        let g = self.g(geometry);
+        let foreshortening = Scaled::new(geometry.cos_i) / Scaled::new(geometry.cos_r);
+        let strength = foreshortening.squared() * Scaled::new(patch.footprint) * Scaled::exp(-g);
+        let log_error = EPSILON * (PREFACTOR_UNITS + G_UNITS * g);
+        Estimate::within(strength, log_error).times(patch.rho_squared(geometry))
+    }
+}
+
+/// The patch that the sensor sees, its lengths over the wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// (z/f)² dA_im cos γ/λ² of (43).
+    pub footprint: f64,
+    /// X/λ of (35).
+    pub half_x: f64,
+    /// Y/λ of (35).
+    pub half_y: f64,
+}
+
+impl Patch {
+    fn is_finite(&self) -> bool {
+        self.footprint.is_finite() && self.half_x.is_finite() && self.half_y.is_finite()
+    }
+
+    /// ρ_o of (35), sinc(v_x X) sinc(v_y Y) with sinc a = sin(a)/a (errata E16).
+    pub fn rho(&self, geometry: &Geometry) -> f64 {
+        sinc(2.0 * PI * self.half_x * geometry.along()) * sinc(2.0 * PI * self.half_y * geometry.across())
+    }
+
+    /// ρ_o² with what the rounding of the two phases does to it.
+    pub(super) fn rho_squared(&self, geometry: &Geometry) -> Estimate {
+        let (front, back) = geometry.along_parts();
+        let along = Phase::new(self.half_x, front + back, front.abs() + back.abs());
+        let across = Phase::new(self.half_y, geometry.across(), geometry.across().abs());
+        let rho = along.sinc * across.sinc;
+        let error =
+            along.error * across.sinc.abs() + across.error * along.sinc.abs() + along.error * across.error;
+        // Far from the specular direction ρ is small and its square may leave f64's range.
+        let (rho, error) = (Scaled::new(rho.abs()), Scaled::new(error));
+        Estimate { value: rho.squared(), error: rho * error * 2.0 + error.squared() }
+    }
+}
+
+/// sinc of one phase and a bound of its absolute error.
+struct Phase {
+    sinc: f64,
+    error: f64,
+}
+
+impl Phase {
+    /// Phase 2π·`half`·`component`, the component of v/k being the rounded sum of terms of
+    /// magnitude `terms`.
+    fn new(half: f64, component: f64, terms: f64) -> Self {
+        let a = 2.0 * PI * half * component;
+        let uncertainty = ALONG_UNITS * EPSILON * 2.0 * PI * half * terms;
+        let sinc = sinc(a);
+        let size = a.abs();
+        // |sinc′| = |cos a − sinc a|/|a|; |sinc″| ≤ 1/3 and ≤ 2/|a| beyond 1.
+        let slope = if size < 1e-3 { size / 3.0 } else { (libm::cos(a) - sinc).abs() / size };
+        let curvature = if size < 6.0 { 1.0 / 3.0 } else { 2.0 / (size - uncertainty).max(6.0) };
+        let taylor = slope * uncertainty + 0.5 * curvature * uncertainty * uncertainty;
+        // |sinc| never exceeds 1/|a|, nor 1: past one radian of uncertainty that says more.
+        let most = if size > uncertainty { (1.0 / (size - uncertainty)).min(1.0) } else { 1.0 };
+        let error = taylor.min(sinc.abs() + most) + 4.0 * EPSILON * sinc.abs();
+        Self { sinc, error }
+    }
+}

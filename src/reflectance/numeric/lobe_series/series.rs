@@ -1,0 +1,235 @@
+//! The sum itself, around its largest term.
+//!
+//! The terms are log-concave in m, so there is one peak, near the saddle μ, and the terms fall
+//! faster than geometrically on both sides. While their standard deviation is below 8 all that
+//! matter are summed; above it, every h-th one (the trapezoidal rule, whose error is that of a
+//! Gaussian sampled at 2.5 points a standard deviation or more, below e^{-120}): cost does not
+//! grow with g.
+
+use super::saddle::Saddle;
+use super::uniform;
+use super::{LobeSeries, Method, rounding};
+use crate::reflectance::numeric::scaled::Scaled;
+
+/// Terms below this share of the sum end it; the rest of a side is then below 2^-54 of it.
+const NEGLIGIBLE: f64 = 1.0 / (1u64 << 58) as f64;
+/// From this variance of the terms on, every h-th term is enough: the first terms are below e^{-60}.
+const STRIDED_FROM_VARIANCE: f64 = 64.0;
+/// From this μ on f64 cannot tell neighbouring terms apart, and c₁/μ of the expansion is below 1e-20.
+const CONTINUOUS_FROM: f64 = 1e20;
+/// The authors' number of terms.
+const PAPER_TERMS: f64 = 100.0;
+
+/// Σ t_m/t_c with its first moments.
+#[derive(Clone, Copy, Default)]
+struct Moments {
+    sum: f64,
+    /// Σ m t
+    first: f64,
+    /// Σ t/m
+    inverse: f64,
+}
+
+impl Moments {
+    fn add(&mut self, m: f64, t: f64) {
+        self.sum += t;
+        self.first += m * t;
+        self.inverse += t / m;
+    }
+
+    fn series(self, g: f64, x: f64, reference: Scaled, method: Method) -> LobeSeries {
+        let condition_g = (self.first / self.sum - g).abs();
+        let condition_x = x * (self.inverse / self.sum);
+        LobeSeries {
+            value: reference * self.sum,
+            relative_error: rounding(condition_g, condition_x),
+            condition_g,
+            condition_x,
+            method,
+        }
+    }
+}
+
+/// S to full precision.
+pub(super) fn converged(g: f64, x: f64) -> LobeSeries {
+    converged_at(g, x, &Saddle::of(g, x))
+}
+
+/// S to full precision, the saddle known.
+pub(super) fn converged_at(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
+    if saddle.mu >= CONTINUOUS_FROM {
+        let (condition_g, condition_x) = ((saddle.mu - g).abs().max(1.0), x / saddle.mu);
+        return LobeSeries {
+            value: uniform::leading_term(g, x, saddle),
+            relative_error: rounding(condition_g, condition_x),
+            condition_g,
+            condition_x,
+            method: Method::Series,
+        };
+    }
+    if saddle.variance() >= STRIDED_FROM_VARIANCE {
+        strided(g, x, saddle)
+    } else {
+        let centre = saddle.mu.round().max(1.0);
+        let moments = neighbours(g, x, centre, f64::INFINITY);
+        moments.series(g, x, term(centre, g, x), Method::Series)
+    }
+}
+
+/// The first 100 terms, each to full precision: what is missing is the rest of the series.
+pub(super) fn first_hundred(g: f64, x: f64) -> LobeSeries {
+    let saddle = Saddle::of(g, x);
+    let centre = saddle.mu.round().clamp(1.0, PAPER_TERMS);
+    let moments = neighbours(g, x, centre, PAPER_TERMS);
+    let mut partial = moments.series(g, x, term(centre, g, x), Method::Paper);
+    partial.relative_error += paper_truncation(g, x, partial.value);
+    partial
+}
+
+/// Bound of the share of S beyond the 100th term: with ratio r from there on falling, the rest is
+/// at most t₁₀₁/(1 − r); where r ≥ 1 only "all of it" can be said.
+fn paper_truncation(g: f64, x: f64, partial: Scaled) -> f64 {
+    let m = PAPER_TERMS + 1.0;
+    let ratio = ratio_up(m, g, x);
+    if ratio >= 1.0 {
+        return 1.0;
+    }
+    let rest = (term(m, g, x) * (1.0 / (1.0 - ratio)) / partial).to_f64();
+    rest.min(1.0)
+}
+
+/// t_{m+1}/t_m.
+fn ratio_up(m: f64, g: f64, x: f64) -> f64 {
+    let next = m + 1.0;
+    m / (next * next) * tilted(g, x / (m * next))
+}
+
+/// g e^`tilt`, where a g near the end of f64's range meets a tilt that makes up for it.
+fn tilted(g: f64, tilt: f64) -> f64 {
+    if tilt < 300.0 { g * libm::exp(tilt) } else { libm::exp(tilt + libm::log(g)) }
+}
+
+/// All terms that matter on both sides of `centre`, up to `last`, relative to the one at `centre`.
+fn neighbours(g: f64, x: f64, centre: f64, last: f64) -> Moments {
+    let mut moments = Moments::default();
+    moments.add(centre, 1.0);
+    let (mut m, mut t) = (centre, 1.0);
+    let mut matters = true;
+    while matters && m < last {
+        let ratio = ratio_up(m, g, x);
+        t *= ratio;
+        m += 1.0;
+        moments.add(m, t);
+        matters = ratio >= 1.0 || t >= NEGLIGIBLE * moments.sum;
+    }
+    (m, t) = (centre, 1.0);
+    matters = true;
+    while matters && m > 1.0 {
+        m -= 1.0;
+        let ratio = 1.0 / ratio_up(m, g, x);
+        t *= ratio;
+        moments.add(m, t);
+        matters = ratio >= 1.0 || t >= NEGLIGIBLE * moments.sum;
+    }
+    moments
+}
+
+/// Every h-th term around the saddle times h. The nodes are multiples of a power of two: exact.
+fn strided(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
+    let deviation = saddle.variance().sqrt();
+    let stride = libm::exp2((deviation / 2.5).log2().floor());
+    let centre = (saddle.mu / stride).round() * stride;
+    let exponent_at_centre = exponent(centre, g, x);
+    let weight = |m: f64| libm::exp(exponent_at_centre - exponent(m, g, x)) / (m * m.sqrt());
+    let mut moments = Moments::default();
+    moments.add(centre, weight(centre));
+    let mut m = centre;
+    let mut matters = true;
+    while matters {
+        m += stride;
+        let t = weight(m);
+        moments.add(m, t);
+        matters = t >= NEGLIGIBLE * moments.sum;
+    }
+    m = centre;
+    matters = true;
+    while matters && m > stride {
+        m -= stride;
+        let t = weight(m);
+        moments.add(m, t);
+        matters = t >= NEGLIGIBLE * moments.sum;
+    }
+    let scale = stride / (2.0 * core::f64::consts::PI).sqrt();
+    moments.series(g, x, Scaled::exp(-exponent_at_centre) * scale, Method::Series)
+}
+
+/// One term, e^{-g} g^m/(m! m) e^{-x/m}.
+fn term(m: f64, g: f64, x: f64) -> Scaled {
+    // Few factors, or a g far below m: the product is exact where m ln(m/g) would cost digits.
+    if m <= 2.0 || (m <= 32.0 && g < 0.5 * m) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 32")]
+        let count = m as u32;
+        let factorial: f64 = (2..=count).map(f64::from).product();
+        Scaled::new(g).powi(count) * Scaled::exp(-(g + x / m)) / Scaled::new(factorial * m)
+    } else {
+        let root = (2.0 * core::f64::consts::PI * m).sqrt();
+        Scaled::exp(-exponent(m, g, x)) / Scaled::new(m * root)
+    }
+}
+
+/// −ln(t_m · m √(2πm)) = m ln(m/g) − m + g + x/m + (Stirling's remainder).
+fn exponent(m: f64, g: f64, x: f64) -> f64 {
+    deviance(m, g) + (x / m + stirling_remainder(m))
+}
+
+/// m ln(m/g) − m + g without cancellation: Loader's expansion in v = (m − g)/(m + g) near m = g.
+fn deviance(m: f64, g: f64) -> f64 {
+    let (difference, sum) = (m - g, m + g);
+    if difference.abs() >= 0.1 * sum {
+        // m/g overflows for a subnormal g.
+        let ln_ratio = if g > 1e-290 { libm::log(m / g) } else { libm::log(m) - libm::log(g) };
+        return m * ln_ratio - difference;
+    }
+    // m ln(m/g) = 2m (v + v³/3 + v⁵/5 + …) and 2mv − (m − g) = (m − g) v.
+    let v = difference / sum;
+    let v2 = v * v;
+    // |v| < 0.1: the first power left out, v^17/17, is below 1e-18 of the first.
+    let tail = v2
+        * (1.0 / 3.0
+            + v2 * (1.0 / 5.0
+                + v2 * (1.0 / 7.0
+                    + v2 * (1.0 / 9.0 + v2 * (1.0 / 11.0 + v2 * (1.0 / 13.0 + v2 * (1.0 / 15.0)))))));
+    difference * v + 2.0 * m * v * tail
+}
+
+/// ln m! − (m + ½) ln m + m − ½ ln 2π, error below 2e-17 for m ≥ 1.
+fn stirling_remainder(m: f64) -> f64 {
+    /// For m = 1 … 15: the series needs m ≥ 16.
+    const SMALL: [f64; 16] = [
+        0.0,
+        0.081_061_466_795_327_26,
+        0.041_340_695_955_409_29,
+        0.027_677_925_684_998_34,
+        0.020_790_672_103_765_093,
+        0.016_644_691_189_821_193,
+        0.013_876_128_823_070_748,
+        0.011_896_709_945_891_77,
+        0.010_411_265_261_972_096,
+        0.009_255_462_182_712_733,
+        0.008_330_563_433_362_871,
+        0.007_573_675_487_951_841,
+        0.006_942_840_107_209_53,
+        0.006_408_994_188_004_207,
+        0.005_951_370_112_758_848,
+        0.005_554_733_551_962_801,
+    ];
+    if m < 16.0 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 15")]
+        return SMALL[m as usize];
+    }
+    let r = 1.0 / m;
+    let r2 = r * r;
+    r * (1.0 / 12.0
+        - r2 * (1.0 / 360.0
+            - r2 * (1.0 / 1260.0 - r2 * (1.0 / 1680.0 - r2 * (1.0 / 1188.0 - r2 * (691.0 / 360360.0))))))
+}

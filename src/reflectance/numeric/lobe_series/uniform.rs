@@ -1,0 +1,85 @@
+//! Laplace's method on the summand, with Stirling's series and the sum replaced by the integral:
+//!
+//! S ≈ e^ψ/(μ √w) (1 + c₁/μ + c₂/μ² + c₃/μ³ + c₄/μ⁴),  ψ = g (expm1 u − 2u e^u),
+//!
+//! uniformly in x; at x = 0 it is 1/g + 1/g² + 2/g³ + 6/g⁴ + 24/g⁵, and (49) is its u → 0 limit.
+
+use super::saddle::Saddle;
+use super::{LobeSeries, Method, excess, rounding, series};
+use crate::reflectance::numeric::scaled::Scaled;
+
+/// Bound of |c₅| and the tail it stands for, over all w ≥ 1 and μ ≥ 10: c₅(1) = 5! is its largest
+/// value; the factor covers what follows it. Measured: see the tests of this file.
+const REMAINDER: f64 = 4.0 * 120.0;
+
+/// c₁ … c₄ as polynomials in t = 1/w, lowest power first.
+const C1: [f64; 4] = [-1.0, 0.0, 3.0, 10.0];
+const C2: [f64; 7] = [1.0, -24.0, -30.0, -92.0, -399.0, -420.0, 1540.0];
+const C3: [f64; 10] =
+    [139.0, 540.0, 405.0, -930.0, 12825.0, 129816.0, 278355.0, -810810.0, -2702700.0, 3403400.0];
+const C4: [f64; 13] = [
+    -571.0,
+    40032.0,
+    47604.0,
+    66040.0,
+    166590.0,
+    -1148184.0,
+    -15800532.0,
+    -50131224.0,
+    101975445.0,
+    813412600.0,
+    116396280.0,
+    -3879876000.0,
+    2974571600.0,
+];
+
+fn horner(coefficients: &[f64], t: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
+}
+
+/// Bound of the relative truncation error: the asymptotic remainder and the sum's difference from
+/// its integral. Above 1 it only says that the expansion does not serve.
+pub(super) fn truncation(saddle: &Saddle) -> f64 {
+    let fifth = saddle.mu * saddle.mu * saddle.mu * saddle.mu * saddle.mu;
+    let aliasing = 4.0 * libm::exp(-2.0 * core::f64::consts::PI.powi(2) * saddle.variance());
+    REMAINDER / fifth + aliasing
+}
+
+/// Whether [`truncation`] is a bound here: below, the expansion is off by more than it can say.
+pub(super) fn serves(saddle: &Saddle) -> bool {
+    saddle.mu >= 16.0 && saddle.variance() >= 2.0
+}
+
+/// 1 + c₁/μ + … + c₄/μ⁴.
+fn correction(saddle: &Saddle) -> f64 {
+    let (t, r) = (1.0 / saddle.w, 1.0 / saddle.mu);
+    let c1 = horner(&C1, t) / 12.0;
+    let c2 = horner(&C2, t) / 288.0;
+    let c3 = horner(&C3, t) / 51840.0;
+    let c4 = horner(&C4, t) / 2488320.0;
+    1.0 + r * (c1 + r * (c2 + r * (c3 + r * c4)))
+}
+
+/// S by the expansion to order 4. Where it does not serve, its error is measured against the sum.
+pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
+    let value = leading_term(g, x, saddle) * correction(saddle);
+    let condition_g = (saddle.mu - g).abs().max(1.0);
+    let condition_x = x / saddle.mu;
+    let truncation =
+        if serves(saddle) { truncation(saddle) } else { excess(value, &series::converged_at(g, x, saddle)) };
+    LobeSeries {
+        value,
+        relative_error: truncation + rounding(condition_g, condition_x),
+        condition_g,
+        condition_x,
+        method: Method::Uniform,
+    }
+}
+
+/// e^ψ/(μ √w).
+pub(super) fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
+    let Saddle { u, mu, w } = *saddle;
+    // With 2u μ = 2x/μ the exponent is μ − g − 2x/μ; for small u the difference μ − g is g expm1(u).
+    let psi = if u < 0.5 { g * (libm::expm1(u) - 2.0 * u * libm::exp(u)) } else { mu - g - 2.0 * (x / mu) };
+    Scaled::exp(psi) * Scaled::new(1.0 / (mu * w.sqrt()))
+}
