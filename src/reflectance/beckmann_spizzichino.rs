@@ -42,37 +42,49 @@ impl RelativeRoughness {
         root * root
     }
 
-    /// The specular lobe of (47) over the irradiance, per steradian, with the method that made S.
-    /// Infinite at θ_r = 90° unless the surface is a mirror.
-    pub fn lobe(&self, geometry: &Geometry, method: Method, tolerance: f64) -> (Estimate, Method) {
+    /// The specular lobe of (47) over the irradiance, per steradian, and the method that made S.
+    ///
+    /// `over_cosines` takes the place of 1/cos θ_r: G/cos θ_r for a shadowed radiance, and divided by
+    /// cos θ_i for a BRDF. Infinite where it is.
+    pub fn lobe(
+        &self,
+        geometry: &Geometry,
+        over_cosines: f64,
+        method: Method,
+        tolerance: f64,
+    ) -> (Estimate, Method) {
         let (g, x) = (self.g(geometry), self.x(geometry));
         let series = lobe_series::evaluate(method, g, x, tolerance);
-        (self.lobe_of(geometry, &series), series.method)
+        (self.lobe_of(geometry, over_cosines, &series), series.method)
     }
 
-    /// (47)'s second term from a value of S: π/4 · (T/λ)² · (q (1 + tan² α))² · S/cos θ_r. The
-    /// fourth of that square is cos² θ_i D².
-    fn lobe_of(&self, geometry: &Geometry, series: &LobeSeries) -> Estimate {
-        if geometry.cos_r == 0.0 {
-            return if series.value.is_zero() { Estimate::UNDEFINED } else { Estimate::INFINITE };
-        }
+    /// (47)'s second term from a value of S: π/4 · (T/λ)² · (q (1 + tan² α))² · S/cos θ_r. A quarter
+    /// of the last square is cos² θ_i D².
+    fn lobe_of(&self, geometry: &Geometry, over_cosines: f64, series: &LobeSeries) -> Estimate {
         let length = Scaled::new(geometry.length());
         let facet_factor = length.squared() / Scaled::new(geometry.cos_sum);
         let patch = Scaled::new(self.correlation_length) * facet_factor;
-        let value = patch.squared() * (0.25 * PI) * series.value / Scaled::new(geometry.cos_r);
+        let value = patch.squared() * (0.25 * PI) * series.value * over_cosines;
+        if value.is_nan() {
+            return Estimate::UNDEFINED;
+        }
+        if !value.is_finite() {
+            return Estimate::INFINITE;
+        }
         let log_error = series.relative_error
             + EPSILON * (PREFACTOR_UNITS + G_UNITS * series.condition_g + X_UNITS * series.condition_x);
         Estimate::within(value, log_error)
     }
 
-    /// The specular spike of (47) over the irradiance, per steradian.
-    pub fn spike(&self, geometry: &Geometry, patch: &Patch) -> Estimate {
+    /// The specular spike of (47) over the irradiance, per steradian; `cosines` is the cos² θ_i of
+    /// (47), or cos θ_i for its BRDF.
+    pub fn spike(&self, geometry: &Geometry, cosines: f64, patch: &Patch) -> Estimate {
         if geometry.cos_r == 0.0 || !patch.is_finite() {
-            return if geometry.cos_i == 0.0 { Estimate::UNDEFINED } else { Estimate::INFINITE };
+            return if cosines == 0.0 { Estimate::UNDEFINED } else { Estimate::INFINITE };
         }
         let g = self.g(geometry);
-        let foreshortening = Scaled::new(geometry.cos_i) / Scaled::new(geometry.cos_r);
-        let strength = foreshortening.squared() * Scaled::new(patch.footprint) * Scaled::exp(-g);
+        let cos_r = Scaled::new(geometry.cos_r);
+        let strength = Scaled::new(cosines) * patch.footprint * Scaled::exp(-g) / cos_r / cos_r;
         let log_error = EPSILON * (PREFACTOR_UNITS + G_UNITS * g);
         Estimate::within(strength, log_error).times(patch.rho_squared(geometry))
     }

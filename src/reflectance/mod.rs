@@ -6,10 +6,14 @@
 pub mod beckmann_spizzichino;
 pub mod bounds;
 pub mod degrees;
+pub mod directions;
 pub mod estimate;
+pub mod evaluate;
+pub mod findings;
 pub mod fresnel;
 pub mod geometry;
 pub mod image_irradiance;
+mod kernel;
 pub mod lambertian;
 pub mod numeric;
 pub mod quantity;

@@ -4,8 +4,8 @@
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
 use super::quantity::{
-    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
-    SpecularScale, Tolerance, Wavelength,
+    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, RmsHeight, SpecularScale,
+    Tolerance, Wavelength,
 };
 use super::roughness;
 use super::shadowing::Shadowing;

@@ -53,6 +53,22 @@ impl Shadowing {
             }
         }
     }
+
+    /// G/(cos θ_i cos θ_r), the factor of a BRDF, in the form that stays finite at grazing source or
+    /// view if there are V-grooves. NaN as [`Self::factor`]. Relative error below 16 ε.
+    pub fn factor_over_cosines(self, geometry: &Geometry) -> f64 {
+        let &Geometry { cos_i, cos_r, .. } = geometry;
+        let both = 1.0 / (cos_i * cos_r);
+        match self {
+            Self::None => both,
+            Self::VGroove => {
+                let Some(groove) = groove(geometry) else { return f64::NAN };
+                // 0/0 where both directions are grazing.
+                let hidden = groove / cos_i.max(cos_r);
+                if hidden.is_nan() { hidden } else { hidden.min(both) }
+            }
+        }
+    }
 }
 
 /// 2 cos α/cos θ′; none where v = 0.

@@ -37,27 +37,36 @@ impl FacetLobe {
         gaussian(geometry, self.sigma_alpha)
     }
 
-    /// Radiance (70) under a beam of this irradiance on a plane normal to it (L_i dω_i), W m⁻² sr⁻¹.
+    /// c·a_f/4 · exp(−α²/2σ_α²) · `over_cosines`: (70) over the irradiance, without F′.
     ///
-    /// Infinite at cos θ_r = 0 without shadowing, NaN where G has no limit. Error: 14 ε (α/σ_α)² for the exponential, whose
-    /// angle is known to 6 ε and width to 5 ε; 48 ε for the factors; and that of F′.
-    pub fn radiance(&self, geometry: &Geometry, irradiance: f64) -> Estimate {
-        let reflectance = self.medium.reflectance(geometry.local_incidence(), self.polarization);
-        let over_cos = self.shadowing.factor_over_cos_r(geometry);
+    /// `over_cosines` is G/cos θ_r for a radiance, G/(cos θ_i cos θ_r) for a BRDF; where it is infinite or NaN, so is
+    /// the lobe. Error: 14 ε (α/σ_α)² for the exponential, whose angle is known to 6 ε and width to 5 ε, and 48 ε
+    /// for the factors.
+    pub fn lobe(&self, geometry: &Geometry, over_cosines: f64) -> Estimate {
         // A lobe without strength has no radiance at grazing either.
-        if self.specular_scale == 0.0 || reflectance == Energy::ZERO {
+        if self.specular_scale == 0.0 {
             return Estimate::ZERO;
         }
-        if over_cos.is_nan() {
+        if over_cosines.is_nan() {
             return Estimate::UNDEFINED;
         }
-        if over_cos.is_infinite() {
+        if over_cosines.is_infinite() {
             return Estimate::INFINITE;
         }
         let ratio = geometry.alpha() / self.sigma_alpha;
         let square = ratio * ratio;
-        let beam = Scaled::exp(-0.5 * square) * over_cos * (0.25 * self.specular_scale) * irradiance;
-        Estimate::within(beam, EPSILON * (14.0 * square + 48.0)).times(reflectance.into())
+        let value = Scaled::exp(-0.5 * square) * over_cosines * (0.25 * self.specular_scale);
+        Estimate::within(value, EPSILON * (14.0 * square + 48.0))
+    }
+
+    /// Radiance (70) under a beam of this irradiance on a plane normal to it (L_i dω_i), W m⁻² sr⁻¹.
+    ///
+    /// Infinite at cos θ_r = 0 without shadowing, NaN where G has no limit.
+    pub fn radiance(&self, geometry: &Geometry, irradiance: f64) -> Estimate {
+        let reflectance = self.medium.reflectance(geometry.local_incidence(), self.polarization);
+        self.lobe(geometry, self.shadowing.factor_over_cos_r(geometry))
+            .times(reflectance.into())
+            .scaled_by(Scaled::new(irradiance))
     }
 }
 

@@ -124,6 +124,11 @@ impl Scaled {
         self.significand == 0.0
     }
 
+    /// Whether there is no value.
+    pub fn is_nan(self) -> bool {
+        self.significand.is_nan()
+    }
+
     /// Neither infinite nor undefined. A finite value may still lie beyond f64's range.
     pub fn is_finite(self) -> bool {
         self.significand.is_finite()

@@ -1,0 +1,121 @@
+//! The directions of one request: three angles, each one number for all or one number for each.
+
+use super::bounds;
+use super::geometry::Geometry;
+use super::quantity::{Azimuth, SourceZenith, ViewerZenith};
+
+/// One angle for all directions, or one for each.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Angles<A> {
+    /// Broadcast.
+    One(A),
+    /// One for each direction.
+    Each(Vec<A>),
+}
+
+impl<A: Copy> Angles<A> {
+    fn len(&self) -> Option<usize> {
+        match self {
+            Self::One(_) => None,
+            Self::Each(angles) => Some(angles.len()),
+        }
+    }
+
+    fn at(&self, index: usize) -> A {
+        match self {
+            Self::One(angle) => *angle,
+            Self::Each(angles) => angles[index],
+        }
+    }
+}
+
+/// Which of the three angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the report's symbols")]
+pub enum DirectionAngle {
+    ThetaI,
+    ThetaR,
+    PhiR,
+}
+
+/// Why three sets of angles are not directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DirectionsError {
+    /// An array without elements.
+    Empty {
+        /// Which.
+        angle: DirectionAngle,
+    },
+    /// An array whose length is not that of the first array.
+    UnequalLength {
+        /// Which.
+        angle: DirectionAngle,
+        /// Its length.
+        length: usize,
+        /// The length of the first array.
+        expected: usize,
+    },
+    /// More directions than one request may have.
+    TooMany {
+        /// Which array.
+        angle: DirectionAngle,
+        /// Its length.
+        length: usize,
+    },
+}
+
+/// N directions, 1 ≤ N ≤ [`bounds::MAX_DIRECTIONS`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Directions {
+    theta_i: Angles<SourceZenith>,
+    theta_r: Angles<ViewerZenith>,
+    phi_r: Angles<Azimuth>,
+    count: usize,
+}
+
+impl Directions {
+    /// Broadcasts and checks the lengths; all that is wrong comes back at once.
+    pub fn new(
+        theta_i: Angles<SourceZenith>,
+        theta_r: Angles<ViewerZenith>,
+        phi_r: Angles<Azimuth>,
+    ) -> Result<Self, Vec<DirectionsError>> {
+        let lengths = [
+            (DirectionAngle::ThetaI, theta_i.len()),
+            (DirectionAngle::ThetaR, theta_r.len()),
+            (DirectionAngle::PhiR, phi_r.len()),
+        ];
+        let expected = lengths.iter().find_map(|(_, length)| *length);
+        let mut errors = Vec::new();
+        for (angle, length) in lengths {
+            let Some(length) = length else { continue };
+            if length == 0 {
+                errors.push(DirectionsError::Empty { angle });
+            } else if length > bounds::MAX_DIRECTIONS {
+                errors.push(DirectionsError::TooMany { angle, length });
+            } else if let Some(expected) = expected.filter(|&e| e != length && e != 0) {
+                errors.push(DirectionsError::UnequalLength { angle, length, expected });
+            }
+        }
+        if errors.is_empty() {
+            Ok(Self { theta_i, theta_r, phi_r, count: expected.unwrap_or(1) })
+        } else {
+            Err(errors)
+        }
+    }
+
+    /// N.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The geometry of direction `index` < N.
+    pub fn geometry(&self, index: usize) -> Geometry {
+        Geometry::new(self.theta_i.at(index), self.theta_r.at(index), self.phi_r.at(index))
+    }
+
+    /// All geometries in order.
+    pub fn geometries(&self) -> impl Iterator<Item = Geometry> + '_ {
+        (0..self.count).map(|index| self.geometry(index))
+    }
+}

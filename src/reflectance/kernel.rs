@@ -1,0 +1,249 @@
+//! A scene made ready: what does not depend on the direction is worked out once, what does is
+//! evaluated without allocating.
+
+use super::beckmann_spizzichino::{Patch, RelativeRoughness};
+use super::estimate::Estimate;
+use super::fresnel::{Energy, Medium, Polarization};
+use super::geometry::Geometry;
+use super::lambertian;
+use super::numeric::EPSILON;
+use super::numeric::lobe_series::Method;
+use super::numeric::scaled::Scaled;
+use super::radiometry;
+use super::scene::{Component, Model, Scene, Sensor};
+use super::shadowing::Shadowing;
+use super::torrance_sparrow::{self, FacetLobe};
+use super::unified;
+
+/// Radiance `L_r` (2) or BRDF `f_r = L_r/I_s` (3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// W m⁻² sr⁻¹ (times whatever the irradiance carries).
+    Radiance,
+    /// sr⁻¹.
+    Brdf,
+}
+
+impl Quantity {
+    /// The name in requests and answers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Radiance => "radiance",
+            Self::Brdf => "brdf",
+        }
+    }
+
+    /// The unit of the values.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Radiance => "W m^-2 sr^-1",
+            Self::Brdf => "sr^-1",
+        }
+    }
+}
+
+/// What evaluated a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EvaluatedBy {
+    /// No series was needed.
+    ClosedForm,
+    /// The lobe series, by this method (never `auto`).
+    Lobe(Method),
+}
+
+impl EvaluatedBy {
+    /// Every possibility, in the order in which they are counted.
+    pub const ALL: [Self; 6] = [
+        Self::ClosedForm,
+        Self::Lobe(Method::Series),
+        Self::Lobe(Method::Paper),
+        Self::Lobe(Method::Uniform),
+        Self::Lobe(Method::Smooth),
+        Self::Lobe(Method::Rough),
+    ];
+
+    /// The name in answers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "closed_form",
+            Self::Lobe(method) => method.name(),
+        }
+    }
+}
+
+/// One direction's answer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reflection {
+    /// By [`Component::index`]; none where the component is not evaluated.
+    pub(super) components: [Option<Estimate>; 3],
+    pub(super) evaluated_by: EvaluatedBy,
+}
+
+/// A scene ready to be evaluated for one quantity.
+pub(super) struct Kernel<'a> {
+    scene: &'a Scene,
+    quantity: Quantity,
+    irradiance: f64,
+    medium: Medium,
+    polarization: Polarization,
+    shadowing: Shadowing,
+    roughness: Option<RelativeRoughness>,
+    view: Option<View>,
+    facets: Option<FacetLobe>,
+    method: Method,
+    tolerance: f64,
+}
+
+/// The sensor, its lengths over the wavelength.
+#[derive(Clone, Copy)]
+enum View {
+    Patch(Patch),
+    /// Footprint/λ²; the patch follows for each θ_r.
+    Camera(f64),
+}
+
+impl<'a> Kernel<'a> {
+    pub(super) fn new(scene: &'a Scene, quantity: Quantity) -> Self {
+        let p = scene.parameters();
+        let wavelength = p.illumination.wavelength.map(|w| w.get());
+        let roughness = p.surface.rms_height.zip(wavelength).map(|(height, wavelength)| RelativeRoughness {
+            height: height.get() / wavelength,
+            // Only the height lobe reads it, and a scene with one has a correlation length.
+            correlation_length: p.surface.correlation_length.map_or(0.0, |t| t.get() / wavelength),
+        });
+        let shadowing = scene.shadowing();
+        Self {
+            scene,
+            quantity,
+            irradiance: p.illumination.irradiance.get(),
+            medium: p.surface.medium,
+            polarization: p.illumination.polarization,
+            shadowing,
+            roughness,
+            view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
+            facets: scene.facet_slope_radians.map(|sigma_alpha| FacetLobe {
+                sigma_alpha,
+                specular_scale: p
+                    .surface
+                    .specular_scale
+                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), |scale| scale.get()),
+                medium: p.surface.medium,
+                polarization: p.illumination.polarization,
+                shadowing,
+            }),
+            method: p.accuracy.method,
+            // Half for the series, half for all else.
+            tolerance: 0.5 * p.accuracy.relative_tolerance.get(),
+        }
+    }
+
+    /// g of (34) between these directions, where the scene has heights and a wavelength.
+    pub(super) fn g(&self, geometry: &Geometry) -> Option<f64> {
+        self.roughness.map(|roughness| roughness.g(geometry))
+    }
+
+    /// The evaluated components in one direction.
+    pub(super) fn reflect(&self, geometry: &Geometry) -> Reflection {
+        let mut components = [None; 3];
+        let mut evaluated_by = EvaluatedBy::ClosedForm;
+        let reflectance = self.medium.reflectance(geometry.local_incidence(), self.polarization);
+        for &component in self.scene.evaluated() {
+            let value = match component {
+                Component::DiffuseLobe => Some(self.diffuse_lobe(geometry)),
+                Component::SpecularLobe if self.scene.parameters().model == Model::BeckmannSpizzichino => {
+                    self.roughness.map(|roughness| {
+                        let over = self.shadowing_over_cosines(geometry);
+                        let (lobe, method) = roughness.lobe(geometry, over, self.method, self.tolerance);
+                        evaluated_by = EvaluatedBy::Lobe(method);
+                        self.with_reflectance(lobe, reflectance)
+                    })
+                }
+                Component::SpecularLobe => self.facet_lobe(geometry, reflectance),
+                Component::SpecularSpike => self.spike(geometry, reflectance),
+            };
+            components[component.index()] = value;
+        }
+        Reflection { components, evaluated_by }
+    }
+
+    /// (57): radiance κ_diff · irradiance · cos θ_i, BRDF κ_diff.
+    fn diffuse_lobe(&self, geometry: &Geometry) -> Estimate {
+        let surface = &self.scene.parameters().surface;
+        let value = match self.quantity {
+            Quantity::Radiance => {
+                let irradiance = self.scene.parameters().illumination.irradiance;
+                lambertian::radiance(surface.diffuse_albedo, irradiance, geometry.cos_i)
+            }
+            Quantity::Brdf => lambertian::kappa_diff(surface.diffuse_albedo),
+        };
+        Estimate::within(Scaled::new(value), 8.0 * EPSILON)
+    }
+
+    /// (70), times 1 − e^{-g} where it shares the energy with a spike.
+    fn facet_lobe(&self, geometry: &Geometry, reflectance: Energy) -> Option<Estimate> {
+        let lobe = self.facets?.lobe(geometry, self.shadowing_over_cosines(geometry));
+        let surface = &self.scene.parameters().surface;
+        let shares = self.scene.parameters().model == Model::Unified && surface.specular_scale.is_none();
+        if !shares {
+            return Some(self.with_reflectance(lobe, reflectance));
+        }
+        let g = unified::mirror_g(self.roughness?.height, 1.0, geometry.cos_i);
+        // 1 − e^{-g} has no larger relative error than g, 16 ε, and three roundings.
+        let share = Estimate::within(Scaled::new(unified::lobe_share(g)), 24.0 * EPSILON);
+        Some(self.with_reflectance(lobe.times(share), reflectance))
+    }
+
+    /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.
+    fn spike(&self, geometry: &Geometry, reflectance: Energy) -> Option<Estimate> {
+        let patch = self.view?.patch(geometry);
+        let power = match self.quantity {
+            Quantity::Radiance => geometry.cos_i * geometry.cos_i,
+            Quantity::Brdf => geometry.cos_i,
+        };
+        Some(self.with_reflectance(self.roughness?.spike(geometry, power, &patch), reflectance))
+    }
+
+    /// (41) and (71): F′ at the half vector; and the irradiance where a radiance is asked for.
+    fn with_reflectance(&self, lobe: Estimate, reflectance: Energy) -> Estimate {
+        let reflected = lobe.times(reflectance.into());
+        match self.quantity {
+            Quantity::Radiance => reflected.scaled_by(Scaled::new(self.irradiance)),
+            Quantity::Brdf => reflected,
+        }
+    }
+
+    /// G/cos θ_r for a radiance, G/(cos θ_i cos θ_r) for a BRDF, in forms that keep their limits.
+    fn shadowing_over_cosines(&self, geometry: &Geometry) -> f64 {
+        match self.quantity {
+            Quantity::Radiance => self.shadowing.factor_over_cos_r(geometry),
+            Quantity::Brdf => self.shadowing.factor_over_cosines(geometry),
+        }
+    }
+}
+
+impl View {
+    fn new(sensor: Sensor, wavelength: f64) -> Self {
+        match sensor {
+            Sensor::Patch { footprint, half_x, half_y } => Self::Patch(Patch {
+                footprint: footprint.get() / wavelength / wavelength,
+                half_x: half_x.get() / wavelength,
+                half_y: half_y.get() / wavelength,
+            }),
+            Sensor::Camera { pixel_area, distance, focal_length, off_axis, .. } => {
+                let footprint = radiometry::footprint(pixel_area, distance, focal_length, off_axis);
+                Self::Camera(footprint / wavelength / wavelength)
+            }
+        }
+    }
+
+    /// A camera's A = footprint/cos θ_r and X = Y = √A/2 (errata E18).
+    fn patch(self, geometry: &Geometry) -> Patch {
+        match self {
+            Self::Patch(patch) => patch,
+            Self::Camera(footprint) => {
+                let half = 0.5 * (footprint / geometry.cos_r).sqrt();
+                Patch { footprint, half_x: half, half_y: half }
+            }
+        }
+    }
+}
