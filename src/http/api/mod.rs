@@ -6,6 +6,7 @@ pub(super) mod examples;
 pub(super) mod health;
 pub(super) mod radiance;
 mod responses;
+pub(super) mod roughness;
 mod scene;
 
 /// The body of the request that the program suggests when it starts.

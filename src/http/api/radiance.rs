@@ -107,7 +107,7 @@ object! {
         geometry: CheckedDirections,
         /// What to add to the answer.
         output: Option<OutputWire>,
-        ..scene: CheckedScene
+        ..scene: CheckedScene,
     }
 }
 

@@ -344,4 +344,12 @@ impl Wire for Components {
             .unique_items(true);
         OneOfBuilder::new().item(auto).item(list).into()
     }
+
+    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
+        // A query has no oneOf of a word and a list: one list of words says the same.
+        let words = std::iter::once("auto").chain(Component::ALL.iter().map(|component| component.name()));
+        let word = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(words)).into();
+        let schema = list_schema(word, Component::ALL.len()).into();
+        vec![Parameter { name, description: description.to_owned(), required, schema }]
+    }
 }
