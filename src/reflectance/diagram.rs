@@ -156,6 +156,11 @@ impl Sweep {
         Self { axis, positions: division.positions(from, to, points), at, phi_r }
     }
 
+    /// Rows of the table: points times fixed angles.
+    pub fn rows(&self) -> usize {
+        self.positions.len() * self.at.len()
+    }
+
     /// The directions of one curve.
     fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
         let (mut theta_i, mut theta_r) =

@@ -160,5 +160,5 @@ async fn answer(
         let answer = Answer::new(quantity, evaluation);
         json::response(&answer, answer.size_hint())
     })
-    .await
+    .await?
 }

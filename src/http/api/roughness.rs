@@ -7,15 +7,13 @@ use crate::http::input::query::Query;
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{Parameter, Schemas};
 use crate::http::negotiate::JsonOnly;
-use crate::http::problem::Code;
+use crate::http::problem::{Code, Problem};
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::quantity::{
     BeckmannAlpha, CorrelationLength, InvertibleFacetSlope, RmsHeight, SourceZenith, Wavelength,
 };
 use crate::reflectance::roughness::Widths;
-use crate::reflectance::surface::{
-    RayleighPair, Regime, curvature_radius_in_wavelengths, is_locally_flat,
-};
+use crate::reflectance::surface::{RayleighPair, Regime, curvature_radius_in_wavelengths, is_locally_flat};
 use crate::reflectance::unified::{lobe_share, mirror_g, spike_share};
 use axum::response::Response;
 use serde::Serialize;
@@ -193,7 +191,7 @@ const GEOMETRICAL: &str = "σ_h over the wavelength; holds where the regime is r
     params(RoughnessQuery),
     responses((status = 200, description = "The roughness in every measure.", body = Roughness), GetProblems)
 )]
-pub(crate) async fn roughness(_: JsonOnly, Query(query): Query<RoughnessQuery>) -> Response {
+pub(crate) async fn roughness(_: JsonOnly, Query(query): Query<RoughnessQuery>) -> Result<Response, Problem> {
     json::response(&answer(&query), 1024)
 }
 

@@ -180,7 +180,8 @@ impl Fields {
             reader.within(name, |reader| reader.error(Code::Duplicate, "given more than once"));
         }
         for (name, _) in self.object.fields {
-            let detail = format!("unknown; accepted here: {}", accepted.join(", "));
+            let accepted = if accepted.is_empty() { "none".to_owned() } else { accepted.join(", ") };
+            let detail = format!("unknown; accepted here: {accepted}");
             reader.within(excerpt(&name), |reader| reader.error(Code::UnknownField, detail));
         }
     }
