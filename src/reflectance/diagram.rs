@@ -225,7 +225,7 @@ impl Division {
         let at = |index: usize| match self {
             Self::Step(step) => (from + index as f64 * step).min(to),
             Self::Points(_) if index + 1 == points => to,
-            Self::Points(_) => from + (to - from) * (index as f64 / (points - 1) as f64),
+            Self::Points(_) => from + (to - from) * index as f64 / (points - 1) as f64,
         };
         (0..points).map(at).collect()
     }

@@ -1,10 +1,9 @@
 //! What `/v1/radiance` and `/v1/brdf` answer.
 
 use crate::http::encode::numbers::Numbers;
-use crate::reflectance::evaluate::{Evaluation, Quantity};
+use crate::reflectance::evaluate::{EvaluatedBy, Evaluation, Quantity};
 use crate::reflectance::findings::{Diagnostic, Omitted, Warning};
-use crate::reflectance::scene::Component;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
@@ -74,17 +73,12 @@ pub(crate) struct Answer {
 #[schema(as = Omitted)]
 pub(crate) struct OmittedAnswer {
     /// Which.
-    #[serde(serialize_with = "component_name")]
-    #[schema(value_type = String, example = "specular_spike")]
-    component: Component,
+    #[schema(example = "specular_spike")]
+    component: &'static str,
     /// What it could add to `total` at most, relative; null where it could not be computed.
     bound: Option<f64>,
     /// Why it was left out.
     reason: &'static str,
-}
-
-fn component_name<S: Serializer>(component: &Component, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(component.name())
 }
 
 /// Something to know about the answer.
@@ -119,7 +113,7 @@ pub(crate) struct DiagnosticAnswer {
 
 impl From<Omitted> for OmittedAnswer {
     fn from(omitted: Omitted) -> Self {
-        Self { component: omitted.component, bound: omitted.bound, reason: omitted.reason }
+        Self { component: omitted.component.name(), bound: omitted.bound, reason: omitted.reason }
     }
 }
 
@@ -161,7 +155,7 @@ impl Answer {
             log10_specular_spike: spike.1,
             relative_error_bound: Numbers(evaluation.relative_error_bound),
             methods: evaluation.methods.into_iter().map(|(method, count)| (method.name(), count)).collect(),
-            method: evaluation.method.map(|methods| methods.into_iter().map(|m| m.name()).collect()),
+            method: evaluation.method.map(|methods| methods.into_iter().map(EvaluatedBy::name).collect()),
             roughness_g: evaluation.roughness_g.map(Numbers),
             omitted: evaluation.omitted.into_iter().map(OmittedAnswer::from).collect(),
             warnings: evaluation.warnings.into_iter().map(WarningAnswer::from).collect(),

@@ -6,10 +6,12 @@ pub(super) mod documents;
 pub(super) mod examples;
 pub(super) mod figures;
 pub(super) mod health;
+pub(super) mod image_irradiance;
 pub(super) mod radiance;
 mod responses;
 pub(super) mod roughness;
 mod scene;
+mod spike;
 mod sweep;
 
 /// The body of the request that the program suggests when it starts.

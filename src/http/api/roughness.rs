@@ -103,6 +103,7 @@ object! {
 
 /// One roughness in every measure, and what it means at a wavelength. What the query does not determine is absent.
 #[derive(Serialize, ToSchema)]
+#[expect(clippy::struct_field_names, reason = "roughness_g is the name of g on the wire")]
 pub(crate) struct Roughness {
     /// σ_h/T.
     rms_height_over_correlation_length: f64,

@@ -102,7 +102,7 @@ pub(crate) fn described(schema: RefOr<Schema>, description: &str) -> RefOr<Schem
             one_of.description = text();
             RefOr::T(Schema::OneOf(one_of))
         }
-        other => other,
+        other @ RefOr::T(_) => other,
     }
 }
 
@@ -137,6 +137,7 @@ macro_rules! object {
     ) => {
         $(#[doc = $doc])*
         #[derive(Clone, Debug)]
+        #[allow(clippy::struct_field_names, reason = "the names on the wire end in their units")]
         pub(crate) struct $name {
             $( $(#[doc = $field_doc])* pub(crate) $field: $type, )*
             $( pub(crate) $base: $base_type, )*

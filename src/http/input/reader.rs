@@ -1,6 +1,6 @@
 //! Collects what is wrong with a request while it is being read.
 
-use super::node::{Object, excerpt};
+use super::node::{Node, Object, excerpt};
 use super::wire::Wire;
 use crate::http::problem::{Code, FieldError};
 use std::borrow::Cow;
@@ -169,6 +169,9 @@ impl Fields {
         let position = self.object.fields.iter().position(|(given, _)| given == name);
         let node = position.map(|position| self.object.fields.swap_remove(position).1);
         reader.within(name, |reader| match node {
+            Some(Node::Array(_)) if reader.is_flat() && !T::REPEATABLE => {
+                reader.fail(Code::Duplicate, "given more than once")
+            }
             Some(node) => T::read(node, reader),
             None => T::absent(reader),
         })
