@@ -98,7 +98,6 @@ pub(super) struct Kernel<'a> {
     view: Option<View>,
     facets: Option<FacetLobe>,
     method: Method,
-    tolerance: f64,
 }
 
 /// The sensor, its lengths over the wavelength.
@@ -139,8 +138,6 @@ impl<'a> Kernel<'a> {
                 shadowing,
             }),
             method: p.accuracy.method,
-            // Half for the series, half for all else.
-            tolerance: 0.5 * p.accuracy.relative_tolerance.get(),
         }
     }
 
@@ -160,7 +157,7 @@ impl<'a> Kernel<'a> {
                 Component::SpecularLobe if self.scene.parameters().model == Model::BeckmannSpizzichino => {
                     self.roughness.map(|roughness| {
                         let over = self.shadowing_over_cosines(geometry);
-                        let (lobe, method) = roughness.lobe(geometry, over, self.method, self.tolerance);
+                        let (lobe, method) = roughness.lobe(geometry, over, self.method);
                         evaluated_by = EvaluatedBy::Lobe(method);
                         self.with_reflectance(lobe, reflectance)
                     })
