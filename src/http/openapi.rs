@@ -1,10 +1,11 @@
 //! What the `OpenAPI` document says beyond its operations.
 
-use super::api::examples::BODIES;
+use super::api::examples::{BODIES, LINKS};
 use super::problem::Document;
 use super::routes;
 use utoipa::openapi::example::ExampleBuilder;
 use utoipa::openapi::info::{InfoBuilder, LicenseBuilder};
+use utoipa::openapi::path::ParameterBuilder;
 use utoipa::openapi::tag::TagBuilder;
 use utoipa::openapi::{OpenApi, OpenApiBuilder, RefOr};
 use utoipa::{PartialSchema as _, ToSchema as _};
@@ -65,6 +66,16 @@ pub(super) fn complete(mut document: OpenApi) -> OpenApi {
         {
             let shown = ExampleBuilder::new().summary(example.summary).value(Some(value)).build();
             content.examples.insert(example.name.to_owned(), shown.into());
+        }
+    }
+    for link in LINKS {
+        let operation = document.paths.paths.get_mut(link.path).and_then(|item| item.get.as_mut());
+        for parameter in operation.and_then(|operation| operation.parameters.as_mut()).into_iter().flatten() {
+            let RefOr::T(parameter) = parameter else { continue };
+            let shown = link.values.iter().find(|(name, _)| *name == parameter.name);
+            if let Some(value) = shown.and_then(|(_, value)| serde_json::from_str(value).ok()) {
+                *parameter = ParameterBuilder::from(parameter.clone()).example(Some(value)).build();
+            }
         }
     }
     document

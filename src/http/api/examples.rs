@@ -108,6 +108,41 @@ pub(crate) const BODIES: &[Example] = &[
     ),
 ];
 
+/// The query that an operation shows: the examples of its parameters, which together make one link.
+pub(crate) struct Link {
+    /// Path of the operation.
+    pub(crate) path: &'static str,
+    /// Parameters and their values, JSON.
+    pub(crate) values: &'static [(&'static str, &'static str)],
+}
+
+/// Every example of a query.
+pub(crate) const LINKS: &[Link] = &[
+    Link {
+        path: "/v1/roughness",
+        values: &[
+            ("rms_height_um", "0.2"),
+            ("correlation_length_um", "4"),
+            ("wavelength_um", "0.55"),
+            ("theta_i_deg", "30"),
+        ],
+    },
+    Link {
+        path: "/v1/diagrams",
+        values: &[
+            ("model", "\"beckmann_spizzichino\""),
+            ("rms_height_um", "0.5"),
+            ("correlation_length_um", "5"),
+            ("wavelength_um", "0.5"),
+            ("sweep", "\"theta_r_deg\""),
+            ("from_deg", "-80"),
+            ("to_deg", "80"),
+            ("step_deg", "5"),
+            ("at_deg", "[10, 30, 45, 60]"),
+        ],
+    },
+];
+
 const fn example(
     path: &'static str,
     name: &'static str,

@@ -3,7 +3,9 @@
 use super::node::Node;
 use super::object::{WireObject, object};
 use super::reader::{ElementErrors, Fields, Reader};
-use super::wire::{Parameter, Schemas, Wire, mismatch, named, named_schema, read_named};
+use super::wire::{
+    Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, stand_in, text_number,
+};
 use crate::http::problem::Code;
 use crate::reflectance::bounds::MAX_DIRECTIONS;
 use crate::reflectance::directions::Angles;
@@ -96,19 +98,19 @@ fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec
     let mut errors = ElementErrors::default();
     for (index, other) in array.others {
         if let (true, Node::Text(text)) = (reader.is_flat(), &other) {
-            numbers[index] = super::wire::text_number(text).unwrap_or(f64::NAN);
+            numbers[index] = text_number(text).unwrap_or(f64::NAN);
             if !numbers[index].is_nan() {
                 continue;
             }
         }
-        // A bound itself is accepted: what comes after sees no second error.
-        numbers[index] = Q::BOUNDS.min;
-        errors.note(reader, index, Code::WrongType, || mismatch(&other, Q::BOUNDS));
+        numbers[index] = stand_in(Q::BOUNDS);
+        let (code, detail) = not_a_number(&other, Q::BOUNDS);
+        errors.note(reader, index, code, || detail);
     }
     for (index, value) in numbers.iter_mut().enumerate() {
         if let Err(error) = Q::new(*value) {
             errors.note(reader, index, Code::OutOfRange, || error.to_string());
-            *value = Q::BOUNDS.min;
+            *value = stand_in(Q::BOUNDS);
         }
     }
     errors.finish(reader);

@@ -3,6 +3,7 @@
 use super::node::Node;
 use super::reader::{Fields, Reader};
 use crate::http::problem::Code;
+use crate::reflectance::bounds::Bounds;
 use crate::reflectance::quantity::Quantity;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, SchemaType, Type};
 use utoipa::openapi::{OneOfBuilder, RefOr};
@@ -114,17 +115,25 @@ fn null() -> RefOr<Schema> {
 
 /// The number of a JSON number, or of a query's text.
 pub(crate) fn number(node: &Node, reader: &mut Reader, expected: &dyn std::fmt::Display) -> Option<f64> {
-    match node {
+    let number = match node {
         Node::Number(number) => Some(*number),
-        Node::Text(text) if reader.is_flat() => {
-            text_number(text).or_else(|| reader.fail(Code::WrongType, mismatch(node, expected)))
-        }
+        Node::Text(text) if reader.is_flat() => text_number(text),
+        _ => None,
+    };
+    number.or_else(|| {
+        let (code, detail) = not_a_number(node, expected);
+        reader.fail(code, detail)
+    })
+}
+
+/// What is wrong with a value that is not a number: a string may spell NaN, an infinity or 1e400.
+pub(crate) fn not_a_number(node: &Node, expected: &dyn std::fmt::Display) -> (Code, String) {
+    match node {
         Node::Text(text) if text.parse::<f64>().is_ok_and(|number| !number.is_finite()) => {
-            let detail =
-                format!("{} is no finite 64-bit number: expected {expected}", super::node::excerpt(text));
-            reader.fail(Code::OutOfRange, detail)
+            let text = super::node::excerpt(text);
+            (Code::OutOfRange, format!("{text} is not a finite 64-bit number: expected {expected}"))
         }
-        other => reader.fail(Code::WrongType, mismatch(other, expected)),
+        other => (Code::WrongType, mismatch(other, expected)),
     }
 }
 
@@ -138,9 +147,15 @@ pub(crate) fn mismatch(found: &Node, expected: &dyn std::fmt::Display) -> String
     format!("found {}: expected {expected}", found.describe())
 }
 
+/// An accepted number for the place of one that was not, so that what depends on it can be checked too: the
+/// one nearest 0, which every narrower range that an angle may have to keep holds as well.
+pub(crate) fn stand_in(bounds: &Bounds) -> f64 {
+    0f64.clamp(bounds.min, bounds.max)
+}
+
 impl<Q: Quantity> Wire for Q {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let stand_in = Q::new(Q::BOUNDS.min).ok();
+        let stand_in = Q::new(stand_in(Q::BOUNDS)).ok();
         let Some(number) = number(&node, reader, Q::BOUNDS) else { return stand_in };
         match Q::new(number) {
             Ok(value) => Some(value),

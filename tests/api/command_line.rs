@@ -1,0 +1,74 @@
+//! Flags, environment, exit codes, logs.
+
+use crate::server::Server;
+use serde_json::Value;
+use std::io::Read as _;
+use std::net::TcpListener;
+use std::process::{Command, Output};
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_reflectance")).args(arguments).output().unwrap()
+}
+
+#[test]
+fn a_wrong_configuration_ends_the_start_with_one_line() {
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let taken = taken.local_addr().unwrap().to_string();
+    for arguments in [
+        &["--listen", "nowhere"][..],
+        &["--listen", &taken],
+        &["--body-limit-bytes", "-1"],
+        &["--request-timeout-seconds", "soon"],
+        &["--log-format", "xml"],
+        &["--unknown"],
+        &["serve"],
+    ] {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(text.lines().count(), 1, "{arguments:?}: {text}");
+        assert!(text.starts_with("reflectance: "), "{text}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[test]
+fn the_environment_mirrors_the_flags_and_is_checked_as_well() {
+    let output = Command::new(env!("CARGO_BIN_EXE_reflectance"))
+        .env("REFLECTANCE_LISTEN", "no such host:1")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("no such host:1"));
+}
+
+#[test]
+fn help_and_version_are_there() {
+    let help = String::from_utf8(run(&["--help"]).stdout).unwrap();
+    for word in ["--listen", "REFLECTANCE_LISTEN", "127.0.0.1:8080", "openapi"] {
+        assert!(help.contains(word), "{word}: {help}");
+    }
+    let version = String::from_utf8(run(&["--version"]).stdout).unwrap();
+    assert_eq!(version.trim(), format!("reflectance {}", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn a_request_leaves_one_line_in_the_log() {
+    let mut server = Server::with(&["--log-format", "json", "--log-level", "info"]);
+    server.get("/livez");
+    server.get("/nothing");
+    let stopped = Command::new("kill").args(["-INT", &server.process.id().to_string()]).status().unwrap();
+    assert!(stopped.success());
+    server.process.wait().unwrap();
+    let mut log = String::new();
+    server.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    let lines: Vec<Value> = log.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let requests: Vec<_> = lines.iter().filter(|line| line["message"] == "request").collect();
+    assert_eq!(requests.len(), 2, "{log}");
+    for (line, (path, status)) in requests.iter().zip([("/livez", 200), ("/nothing", 404)]) {
+        assert_eq!(line["method"], "GET");
+        assert_eq!(line["path"], path);
+        assert_eq!(line["status"], status);
+        assert!(line["microseconds"].is_u64() && line["bytes"].is_u64());
+    }
+}

@@ -1,0 +1,11 @@
+//! The service from outside: the real binary over real HTTP.
+
+mod bad_input;
+mod command_line;
+mod diagrams;
+mod documents;
+mod examples;
+mod properties;
+mod protocol;
+mod radiance;
+mod server;
