@@ -11,6 +11,7 @@ pub mod estimate;
 pub mod evaluate;
 pub mod findings;
 pub mod fresnel;
+pub mod fresnel_average;
 pub mod geometry;
 pub mod image_irradiance;
 mod kernel;
