@@ -1,0 +1,196 @@
+//! One file of the oracle against the core: every output of every line has to be checked, and
+//! the worst error of each quantity is kept.
+
+use crate::measure;
+use crate::table::{Row, Table, Value};
+use reflectance::reflectance::numeric::scaled::Scaled;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The gate, in units of the measure.
+pub const GATE: f64 = 64.0;
+
+/// The worst of one quantity.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Worst {
+    /// Values checked.
+    pub count: usize,
+    /// Largest error, in units.
+    pub units: f64,
+    /// The line it is at.
+    pub line: &'static str,
+}
+
+impl Worst {
+    fn add(&mut self, line: &'static str, units: f64) {
+        self.count += 1;
+        // A NaN would lose every comparison: it counts as infinitely wrong.
+        let units = if units.is_nan() { f64::INFINITY } else { units };
+        if units > self.units || self.line.is_empty() {
+            (self.units, self.line) = (units, line);
+        }
+    }
+}
+
+/// What a family measured.
+#[derive(Debug, Default)]
+pub struct Measured {
+    /// Name of the family.
+    pub name: &'static str,
+    /// Lines read.
+    pub lines: usize,
+    /// Worst by quantity; logarithms under `log10 …`.
+    pub worst: BTreeMap<String, Worst>,
+    /// Everything that is wrong, one sentence each.
+    pub failures: Vec<String>,
+}
+
+/// A line being checked.
+pub struct Line<'f> {
+    /// Its inputs and outputs.
+    pub row: Row<'f>,
+    seen: RefCell<BTreeSet<&'static str>>,
+    measured: RefCell<&'f mut Measured>,
+}
+
+impl Measured {
+    /// Runs `check` on every line of `table` and sees that it left out no output.
+    pub fn run(name: &'static str, table: &Table, check: impl Fn(&Line<'_>)) -> Self {
+        let mut measured = Self { name, lines: table.len(), ..Self::default() };
+        for row in table.rows() {
+            let line = Line { row, seen: RefCell::default(), measured: RefCell::new(&mut measured) };
+            check(&line);
+            for output in row.outputs() {
+                if !line.seen.borrow().contains(output) {
+                    line.fail(output, "was not checked");
+                }
+            }
+        }
+        measured
+    }
+
+    /// Fails with all that is wrong: what lies beyond the gate, and every predicate missed.
+    pub fn assert_passes(&self, lines: usize, values: usize) {
+        println!("{}", self.report());
+        let shown: Vec<_> = self.failures.iter().take(40).map(String::as_str).collect();
+        assert!(
+            self.failures.is_empty(),
+            "{}: {} failures, the first of them:\n{}",
+            self.name,
+            self.failures.len(),
+            shown.join("\n")
+        );
+        assert_eq!(self.lines, lines, "{}: lines", self.name);
+        assert_eq!(self.values(), values, "{}: values", self.name);
+    }
+
+    /// Values compared: numbers, logarithms, predicates.
+    pub fn values(&self) -> usize {
+        self.worst.values().map(|worst| worst.count).sum()
+    }
+
+    fn report(&self) -> String {
+        let mut text = format!("{}: {} lines, {} values\n", self.name, self.lines, self.values());
+        for (quantity, worst) in &self.worst {
+            let Worst { count, units, line } = worst;
+            text += &format!("  {quantity:32} {count:6} values, worst {units:8.3} units at {line}\n");
+        }
+        text
+    }
+}
+
+impl Line<'_> {
+    /// A number known with its logarithm: both are judged, at every magnitude.
+    pub fn scaled(&self, output: &'static str, computed: Scaled, cint: f64) {
+        self.pair(output, computed.to_f64(), computed.log10(), cint);
+    }
+
+    /// A value and the logarithm answered beside it.
+    pub fn pair(&self, output: &'static str, computed: f64, log10: f64, cint: f64) {
+        self.value(output, computed, cint);
+        if let Some(Value::Number(exact)) = self.row.output(output) {
+            let size = if computed < 0.0 { f64::NAN } else { log10 };
+            self.add(format!("log10 {output}"), log10, measure::log_units(size, &exact, cint));
+        }
+    }
+
+    /// A number that the core offers as a plain double. Undefined has to come as NaN.
+    pub fn value(&self, output: &'static str, computed: f64, cint: f64) {
+        self.seen.borrow_mut().insert(output);
+        match self.row.output(output) {
+            Some(Value::Number(exact)) => {
+                self.add(output.to_owned(), computed, measure::units(computed, &exact, cint));
+            }
+            Some(Value::Undefined) => {
+                self.add(output.to_owned(), computed, if computed.is_nan() { 0.0 } else { f64::INFINITY });
+            }
+            other => self.fail(output, &format!("is {other:?}, computed {computed}")),
+        }
+    }
+
+    /// A difference of two terms, judged by the size of the terms.
+    pub fn absolute(&self, output: &'static str, computed: f64, scale: f64) {
+        self.seen.borrow_mut().insert(output);
+        let exact = self.row.exact(output);
+        self.add(output.to_owned(), computed, measure::absolute_units(computed, &exact, scale));
+    }
+
+    /// A bound stated beside a value: |computed − exact| must not exceed it.
+    pub fn bound(&self, output: &'static str, computed: f64, bound: f64) {
+        let error = measure::difference(computed, &self.row.exact(output)).abs();
+        if !(error <= bound) {
+            self.fail(output, &format!("= {computed:e} is {error:e} off, stated {bound:e}"));
+        }
+    }
+
+    /// A predicate, or `None` where it is undefined.
+    pub fn truth(&self, output: &'static str, computed: Option<bool>) {
+        self.seen.borrow_mut().insert(output);
+        let right = match self.row.output(output) {
+            Some(Value::Truth(truth)) => computed == Some(truth),
+            Some(Value::Undefined) => computed.is_none(),
+            _ => false,
+        };
+        self.measured.borrow_mut().worst.entry(output.to_owned()).or_default().add(self.row.id(), 0.0);
+        if !right {
+            self.fail(output, &format!("is not {computed:?}"));
+        }
+    }
+
+    /// Records what is wrong with this line.
+    pub fn fail(&self, output: &str, what: &str) {
+        let failure = format!("{} {output} {what}", self.row.id());
+        self.measured.borrow_mut().failures.push(failure);
+    }
+
+    fn add(&self, quantity: String, computed: f64, units: f64) {
+        // Not `units > GATE`: a NaN has to fail.
+        if !(units <= GATE) {
+            self.fail(&quantity, &format!("= {computed:e} is {units:.1} units off"));
+        }
+        self.measured.borrow_mut().worst.entry(quantity).or_default().add(self.row.id(), units);
+    }
+}
+
+#[test]
+fn what_is_wrong_or_left_out_is_found() {
+    const TEXT: &str = "id\tcat\tout.a\tout.b\tout.c\nx\to\t1\ttrue\t\ny\to\t2~-10\tfalse\tnull\n";
+    let run = |a: f64, b: bool, all: bool| {
+        Measured::run("made_up", &Table::parse(TEXT), move |line| {
+            let second = line.row.id() == "y";
+            line.scaled("a", Scaled::new(if second { 2.0 * a } else { a }), 0.0);
+            line.truth("b", Some(b != second));
+            if second && all {
+                line.value("c", f64::NAN, 0.0);
+            }
+        })
+    };
+    let right = run(1.0, true, true);
+    assert_eq!(right.failures, Vec::<String>::new());
+    right.assert_passes(2, 7);
+    assert_eq!(right.worst["a"].line, "y");
+    // 63 ulps, 126 units, wrong in the value on both lines and in the logarithm on the first.
+    assert!(run(1.0 + 63.0 * f64::EPSILON, true, true).failures.len() >= 2);
+    assert_eq!(run(1.0, false, true).failures.len(), 2);
+    assert_eq!(run(1.0, true, false).failures, ["y c was not checked"]);
+}
