@@ -15,8 +15,9 @@ use crate::reflectance::numeric::scaled::Scaled;
 const NEGLIGIBLE: f64 = 1.0 / (1u64 << 58) as f64;
 /// From this variance of the terms on, every h-th term is enough: the first terms are below e^{-60}.
 const STRIDED_FROM_VARIANCE: f64 = 64.0;
-/// From this μ on f64 cannot tell neighbouring terms apart, and c₁/μ of the expansion is below 1e-20.
-const CONTINUOUS_FROM: f64 = 1e20;
+/// From this μ w on, which is the size of the exponents, their rounding leaves the terms no digits to
+/// be summed with; μ is then above 1e10 and c₅/μ⁵ below 1e-47.
+const CONTINUOUS_FROM: f64 = 1e14;
 /// The authors' number of terms.
 const PAPER_TERMS: f64 = 100.0;
 
@@ -57,15 +58,8 @@ pub(super) fn converged(g: f64, x: f64) -> LobeSeries {
 
 /// S to full precision, the saddle known.
 pub(super) fn converged_at(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
-    if saddle.mu >= CONTINUOUS_FROM {
-        let (condition_g, condition_x) = ((saddle.mu - g).abs().max(1.0), x / saddle.mu);
-        return LobeSeries {
-            value: uniform::leading_term(g, x, saddle),
-            relative_error: rounding(condition_g, condition_x),
-            condition_g,
-            condition_x,
-            method: Method::Series,
-        };
+    if saddle.mu * saddle.w >= CONTINUOUS_FROM {
+        return LobeSeries { method: Method::Series, ..uniform::order_four(g, x, saddle) };
     }
     if saddle.variance() >= STRIDED_FROM_VARIANCE {
         strided(g, x, saddle)
