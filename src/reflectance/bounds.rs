@@ -85,6 +85,8 @@ pub const SLOPE_RATIO: Bounds = Bounds::new("slope", "", 1e-120, 1e120);
 /// σ_α as (79) can invert it: below 90°/√2.
 pub const FACET_SLOPE_INVERTIBLE: Bounds =
     Bounds::new("facet slope that (79) can invert", "degrees", 1e-12, 63.63961030678927);
+/// Ends of a sweep; a negative zenith lies on the other side of the normal.
+pub const SWEEP_ANGLE: Bounds = Bounds::new("swept zenith angle", "degrees", -90.0, 90.0);
 /// Step of a sweep.
 pub const SWEEP_STEP: Bounds = Bounds::new("sweep step", "degrees", 1e-6, 180.0);
 /// Directions in one request.

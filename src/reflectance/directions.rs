@@ -104,6 +104,16 @@ impl Directions {
         }
     }
 
+    /// A curve: as many source as viewer zeniths, at least one.
+    pub(super) fn of_curve(
+        theta_i: Vec<SourceZenith>,
+        theta_r: Vec<ViewerZenith>,
+        phi_r: Angles<Azimuth>,
+    ) -> Self {
+        let count = theta_i.len();
+        Self { theta_i: Angles::Each(theta_i), theta_r: Angles::Each(theta_r), phi_r, count }
+    }
+
     /// N.
     pub fn count(&self) -> usize {
         self.count

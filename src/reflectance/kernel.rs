@@ -2,6 +2,7 @@
 //! evaluated without allocating.
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
+use super::degrees::SinCos;
 use super::estimate::Estimate;
 use super::fresnel::{Energy, Medium, Polarization};
 use super::geometry::Geometry;
@@ -9,7 +10,7 @@ use super::lambertian;
 use super::numeric::EPSILON;
 use super::numeric::lobe_series::Method;
 use super::numeric::scaled::Scaled;
-use super::radiometry;
+use super::radiometry::Camera;
 use super::scene::{Component, Model, Scene, Sensor};
 use super::shadowing::Shadowing;
 use super::torrance_sparrow::{self, FacetLobe};
@@ -229,9 +230,15 @@ impl View {
                 half_x: half_x.get() / wavelength,
                 half_y: half_y.get() / wavelength,
             }),
-            Sensor::Camera { pixel_area, distance, focal_length, off_axis, .. } => {
-                let footprint = radiometry::footprint(pixel_area, distance, focal_length, off_axis);
-                Self::Camera(footprint / wavelength / wavelength)
+            Sensor::Camera { pixel_area, distance, focal_length, aperture, off_axis } => {
+                let camera = Camera {
+                    pixel_area: pixel_area.get(),
+                    distance: distance.get(),
+                    focal_length: focal_length.get(),
+                    aperture: aperture.get(),
+                    cos_off_axis: SinCos::of_degrees(off_axis.get()).cos,
+                };
+                Self::Camera((camera.footprint() / Scaled::new(wavelength).squared()).to_f64())
             }
         }
     }

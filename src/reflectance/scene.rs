@@ -74,6 +74,15 @@ impl Component {
         }
     }
 
+    /// The name of its decimal logarithm in answers.
+    pub const fn log10_name(self) -> &'static str {
+        match self {
+            Self::DiffuseLobe => "log10_diffuse_lobe",
+            Self::SpecularLobe => "log10_specular_lobe",
+            Self::SpecularSpike => "log10_specular_spike",
+        }
+    }
+
     pub(super) const fn index(self) -> usize {
         self as usize
     }
@@ -255,6 +264,16 @@ impl Scene {
         }
         let facet_slope_radians = facet_slope_radians(&parameters.surface);
         Ok(Self { parameters, evaluated, facet_slope_radians })
+    }
+
+    /// A scene of this crate's own making, complete by construction.
+    pub(super) fn preset(parameters: SceneParameters) -> Self {
+        let evaluated = match &parameters.components {
+            Components::Auto => parameters.model.components().to_vec(),
+            Components::Named(named) => named.clone(),
+        };
+        let facet_slope_radians = facet_slope_radians(&parameters.surface);
+        Self { parameters, evaluated, facet_slope_radians }
     }
 
     /// The parameters it was made of.
