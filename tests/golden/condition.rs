@@ -18,13 +18,13 @@ impl Fresnel {
     pub fn of(n: f64, k: f64, cos: f64, sin: f64) -> Self {
         let y2 = Complex64::new((n - k) * (n + k), -2.0 * n * k);
         let root2 = Complex64::new((n - sin) * (n + sin) - k * k, -2.0 * n * k);
-        // At the critical angle the true root lies between 0 and √ε n: its rounding, not 0, limits the field.
+        // At the critical angle, and at Brewster's, what rounding leaves of a difference limits the field, not 0.
         let least = f64::EPSILON * n * n;
         let root = if root2.norm() < least { Complex64::from(least) } else { root2 }.sqrt();
-        let brewster = Complex64::new(
-            (n * cos - sin) * (n * cos + sin) - k * k * cos * cos,
-            -2.0 * n * k * cos * cos,
-        );
+        let brewster =
+            Complex64::new((n * cos - sin) * (n * cos + sin) - k * k * cos * cos, -2.0 * n * k * cos * cos);
+        let least = f64::EPSILON * sin * sin;
+        let brewster = if brewster.norm() < least { Complex64::from(least) } else { brewster };
         // d root/d ln s = −s²/root.
         let root_slope = -sin * sin / root;
         let perpendicular = [-2.0 * cos / (cos + root), -2.0 * root_slope / (cos + root)];
