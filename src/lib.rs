@@ -20,4 +20,8 @@
 //! | (74), (80) | `image_irradiance` |
 //! | (78), (79) | [`reflectance::roughness`] |
 
+#[cfg(feature = "server")]
+pub mod config;
+#[cfg(feature = "server")]
+pub mod http;
 pub mod reflectance;

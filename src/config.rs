@@ -1,0 +1,108 @@
+//! Flags and environment, parsed once into a typed [`Config`].
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::time::Duration;
+
+/// What the command line asks for.
+#[derive(Debug, Parser)]
+#[command(name = "reflectance", version, about, max_term_width = 100)]
+pub struct Cli {
+    /// A command; without one the service starts.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// How the service runs.
+    #[command(flatten)]
+    pub config: Config,
+}
+
+/// Something to do instead of serving.
+#[derive(Clone, Copy, Debug, Subcommand)]
+pub enum Command {
+    /// Print the `OpenAPI` document and exit
+    Openapi,
+}
+
+/// How log lines look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// For a terminal
+    Human,
+    /// One JSON object a line
+    Json,
+}
+
+/// How the service runs. Every flag has an environment variable; the flag wins.
+#[derive(Clone, Debug, Args)]
+pub struct Config {
+    /// Address and port to listen on; port 0 takes a free one
+    #[arg(long, env = "REFLECTANCE_LISTEN", default_value = "127.0.0.1:8080", value_name = "ADDRESS:PORT")]
+    pub listen: String,
+    /// Largest request body, in bytes
+    #[arg(
+        long,
+        env = "REFLECTANCE_BODY_LIMIT_BYTES",
+        default_value_t = 64 << 20,
+        value_name = "BYTES",
+        value_parser = clap::value_parser!(u64).range(1024..=1 << 32)
+    )]
+    pub body_limit_bytes: u64,
+    /// Seconds a request may take, from its head to its answer
+    #[arg(
+        long,
+        env = "REFLECTANCE_REQUEST_TIMEOUT_SECONDS",
+        default_value = "60",
+        value_name = "SECONDS",
+        value_parser = seconds
+    )]
+    pub request_timeout_seconds: Duration,
+    /// Seconds that requests in flight are given to finish after SIGTERM or Ctrl-C
+    #[arg(
+        long,
+        env = "REFLECTANCE_SHUTDOWN_TIMEOUT_SECONDS",
+        default_value = "30",
+        value_name = "SECONDS",
+        value_parser = seconds
+    )]
+    pub shutdown_timeout_seconds: Duration,
+    /// How log lines look
+    #[arg(long, env = "REFLECTANCE_LOG_FORMAT", value_enum, default_value_t = LogFormat::Human)]
+    pub log_format: LogFormat,
+    /// What is logged: off, error, warn, info, debug or trace
+    #[arg(long, env = "REFLECTANCE_LOG_LEVEL", default_value = "info", value_name = "LEVEL")]
+    pub log_level: tracing::level_filters::LevelFilter,
+}
+
+/// Parses a positive number of seconds up to a day.
+fn seconds(text: &str) -> Result<Duration, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|seconds| (0.001..=86_400.0).contains(seconds))
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| "expected a number from 0.001 to 86400".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cli, LogFormat};
+    use clap::{CommandFactory, Parser};
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn flags_are_checked() {
+        for wrong in [
+            ["--body-limit-bytes", "10"],
+            ["--request-timeout-seconds", "0"],
+            ["--request-timeout-seconds", "NaN"],
+            ["--log-format", "xml"],
+            ["--log-level", "loud"],
+        ] {
+            assert!(Cli::try_parse_from(["reflectance", wrong[0], wrong[1]]).is_err(), "{wrong:?}");
+        }
+        let cli = Cli::try_parse_from(["reflectance", "--log-format", "json"]).unwrap();
+        assert_eq!(cli.config.log_format, LogFormat::Json);
+    }
+}

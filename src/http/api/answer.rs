@@ -1,0 +1,184 @@
+//! What `/v1/radiance` and `/v1/brdf` answer.
+
+use crate::http::encode::numbers::Numbers;
+use crate::reflectance::evaluate::{Evaluation, Quantity};
+use crate::reflectance::scene::Component;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+use utoipa::ToSchema;
+
+/// Name and unit of what is answered.
+pub(crate) const fn quantity_and_unit(quantity: Quantity) -> (&'static str, &'static str) {
+    match quantity {
+        Quantity::Radiance => ("radiance", "W m^-2 sr^-1"),
+        Quantity::Brdf => ("brdf", "sr^-1"),
+    }
+}
+
+/// Values in each direction, in the order of the request's arrays. A value that is infinite or undefined is null,
+/// and `diagnostics` says why. A value below the smallest 64-bit float is 0.
+#[derive(Serialize, ToSchema)]
+pub(crate) struct Answer {
+    /// `radiance` or `brdf`.
+    #[schema(example = "radiance")]
+    quantity: &'static str,
+    /// Unit of the values.
+    #[schema(example = "W m^-2 sr^-1")]
+    unit: &'static str,
+    /// The sum of the components.
+    total: Numbers,
+    /// (57)
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    diffuse_lobe: Option<Numbers>,
+    /// The second term of (47), or (70).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    specular_lobe: Option<Numbers>,
+    /// The first term of (47).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    specular_spike: Option<Numbers>,
+    /// Decimal logarithm of `total`; null where the value is exactly 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    log10_total: Option<Numbers>,
+    /// Decimal logarithm of `diffuse_lobe`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    log10_diffuse_lobe: Option<Numbers>,
+    /// Decimal logarithm of `specular_lobe`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    log10_specular_lobe: Option<Numbers>,
+    /// Decimal logarithm of `specular_spike`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    log10_specular_spike: Option<Numbers>,
+    /// Bound of the relative error of `total` against the exact value of the model for the numbers as given;
+    /// null where no bound below infinity is known.
+    relative_error_bound: Numbers,
+    /// How many directions each method evaluated.
+    methods: BTreeMap<&'static str, usize>,
+    /// The method of each direction, if `output.per_direction` asks for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    method: Option<Vec<&'static str>>,
+    /// g of (34) in each direction, if `output.per_direction` asks for it; null where the scene has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    roughness_g: Option<Numbers>,
+    /// Components that `components: "auto"` left out.
+    omitted: Vec<OmittedAnswer>,
+    /// What the scene strains.
+    warnings: Vec<WarningAnswer>,
+    /// Why values are null.
+    diagnostics: Vec<DiagnosticAnswer>,
+}
+
+/// A component that was left out.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Omitted)]
+pub(crate) struct OmittedAnswer {
+    /// Which.
+    #[serde(serialize_with = "component_name")]
+    #[schema(value_type = String, example = "specular_spike")]
+    component: Component,
+    /// What it could add to `total` at most, relative; null where it could not be computed.
+    bound: Option<f64>,
+    /// Why it was left out.
+    reason: &'static str,
+}
+
+fn component_name<S: Serializer>(component: &Component, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(component.name())
+}
+
+/// Something to know about the answer.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Warning)]
+pub(crate) struct WarningAnswer {
+    /// What, for programs.
+    #[schema(example = "tolerance_not_met")]
+    code: &'static str,
+    /// What, for people.
+    detail: &'static str,
+    /// How much, where it is a number.
+    value: Option<f64>,
+    /// The directions concerned: 20 at most.
+    indices: Vec<usize>,
+    /// How many directions are concerned.
+    count: usize,
+}
+
+/// Why a value is null.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Diagnostic)]
+pub(crate) struct DiagnosticAnswer {
+    /// Which direction.
+    index: usize,
+    /// Why, for programs.
+    #[schema(example = "grazing_divergence")]
+    code: &'static str,
+    /// Why, for people.
+    detail: &'static str,
+}
+
+impl Answer {
+    pub(crate) fn new(quantity: Quantity, evaluation: Evaluation) -> Self {
+        let (quantity, unit) = quantity_and_unit(quantity);
+        let mut columns = [const { (None, None) }; 3];
+        for column in evaluation.components {
+            columns[column.component as usize] = (Some(Numbers(column.values)), column.log10.map(Numbers));
+        }
+        let [diffuse, lobe, spike] = columns;
+        Self {
+            quantity,
+            unit,
+            total: Numbers(evaluation.total),
+            diffuse_lobe: diffuse.0,
+            specular_lobe: lobe.0,
+            specular_spike: spike.0,
+            log10_total: evaluation.log10_total.map(Numbers),
+            log10_diffuse_lobe: diffuse.1,
+            log10_specular_lobe: lobe.1,
+            log10_specular_spike: spike.1,
+            relative_error_bound: Numbers(evaluation.relative_error_bound),
+            methods: evaluation.methods.into_iter().map(|(method, count)| (method.name(), count)).collect(),
+            method: evaluation.method.map(|methods| methods.into_iter().map(|m| m.name()).collect()),
+            roughness_g: evaluation.roughness_g.map(Numbers),
+            omitted: evaluation
+                .omitted
+                .into_iter()
+                .map(|o| OmittedAnswer { component: o.component, bound: o.bound, reason: o.reason })
+                .collect(),
+            warnings: evaluation
+                .warnings
+                .into_iter()
+                .map(|w| WarningAnswer {
+                    code: w.code.name(),
+                    detail: w.code.detail(),
+                    value: w.value,
+                    indices: w.indices,
+                    count: w.count,
+                })
+                .collect(),
+            diagnostics: evaluation
+                .diagnostics
+                .iter()
+                .map(|d| DiagnosticAnswer { index: d.index, code: d.code.name(), detail: d.code.detail() })
+                .collect(),
+        }
+    }
+
+    /// About how many bytes it takes as JSON: a number has 17 digits, its exponent and a comma.
+    pub(crate) fn size_hint(&self) -> usize {
+        let columns = 2 + [&self.diffuse_lobe, &self.specular_lobe, &self.specular_spike, &self.roughness_g]
+            .iter()
+            .chain(&[&self.log10_total, &self.log10_diffuse_lobe])
+            .chain(&[&self.log10_specular_lobe, &self.log10_specular_spike])
+            .filter(|column| column.is_some())
+            .count();
+        1024 + 24 * columns * self.total.0.len() + 160 * self.diagnostics.len()
+    }
+}

@@ -1,0 +1,27 @@
+//! What the service says about itself: the `OpenAPI` document and the interactive reference.
+
+use crate::http::Limits;
+use crate::http::openapi::openapi_json;
+use axum::Router;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use std::sync::LazyLock;
+use utoipa_swagger_ui::{Config, SwaggerUi};
+
+static DOCUMENT: LazyLock<String> = LazyLock::new(openapi_json);
+
+/// This document: `OpenAPI` 3.1.
+#[utoipa::path(
+    get,
+    path = "/openapi.json",
+    tag = "reference",
+    responses((status = 200, description = "The document.", body = serde_json::Value, content_type = "application/json"))
+)]
+pub(crate) async fn openapi() -> Response {
+    ([(header::CONTENT_TYPE, "application/json")], DOCUMENT.as_str()).into_response()
+}
+
+/// The reference at `/docs`; its pages and scripts are part of the program.
+pub(crate) fn reference() -> Router<Limits> {
+    Router::from(SwaggerUi::new("/docs").config(Config::from("/openapi.json")))
+}

@@ -1,0 +1,88 @@
+//! Requests that the document shows. A test sends every one of them.
+
+/// A request body, with the operation it belongs to.
+pub(crate) struct Example {
+    /// Path of the operation.
+    pub(crate) path: &'static str,
+    /// Key among the operation's examples.
+    pub(crate) name: &'static str,
+    /// What it shows.
+    pub(crate) summary: &'static str,
+    /// The body, JSON.
+    pub(crate) body: &'static str,
+}
+
+/// What the program suggests when it starts.
+pub(crate) const FIRST: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.2, "correlation_length_um": 4},
+ "illumination": {"wavelength_um": 0.55},
+ "geometry": {"theta_i_deg": 30, "theta_r_deg": [0, 15, 30, 45]}}"#;
+
+const CAMERA: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.05, "correlation_length_um": 5, "medium": {"n": 1.44, "k": 5.23}},
+ "illumination": {"wavelength_um": 0.55, "irradiance": 100, "polarization": "unpolarized"},
+ "sensor": {"pixel_area_um2": 25, "distance_um": 500000, "focal_length_um": 50000, "aperture_um": 25000},
+ "geometry": {"theta_i_deg": 45, "theta_r_deg": [44, 45, 46]},
+ "components": ["specular_lobe", "specular_spike"],
+ "output": {"log10": true, "per_direction": true}}"#;
+
+const FACETS: &str = r#"{"model": "torrance_sparrow",
+ "surface": {"facet_slope_deg": 13, "medium": {"n": 1.5}, "diffuse_albedo": 0.3},
+ "illumination": {"irradiance": 10, "polarization": {"parallel": 0.25, "perpendicular": 0.75}},
+ "geometry": {"theta_i_deg": 60, "theta_r_deg": [-30, 0, 30, 60, 75], "phi_r_deg": 0}}"#;
+
+const UNIFIED: &str = r#"{"model": "unified",
+ "surface": {"rms_height_um": 0.1, "correlation_length_um": 10, "diffuse_albedo": 0.2},
+ "illumination": {"wavelength_um": 0.633},
+ "sensor": {"footprint_um2": 1e6, "patch_half_x_um": 500, "patch_half_y_um": 500},
+ "geometry": {"theta_i_deg": [10, 30, 60], "theta_r_deg": [10, 30, 60]}}"#;
+
+const PAPER: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 1, "correlation_length_um": 10},
+ "illumination": {"wavelength_um": 0.5},
+ "geometry": {"theta_i_deg": 10, "theta_r_deg": 10},
+ "accuracy": {"relative_tolerance": 1e-6, "method": "paper"}}"#;
+
+const LAMBERTIAN: &str = r#"{"model": "lambertian", "surface": {"diffuse_albedo": 0.8},
+ "illumination": {"irradiance": 3.141592653589793}, "geometry": {"theta_i_deg": 60, "theta_r_deg": 20}}"#;
+
+/// Every example of a body.
+pub(crate) const BODIES: &[Example] = &[
+    example(
+        "/v1/radiance",
+        "rough_conductor",
+        "Four directions of a rough conductor, all else by default",
+        FIRST,
+    ),
+    example(
+        "/v1/radiance",
+        "camera",
+        "Spike and lobe of aluminium as a camera sees them, with logarithms",
+        CAMERA,
+    ),
+    example("/v1/radiance", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+    example("/v1/radiance", "unified", "All three components at once, in mirror directions", UNIFIED),
+    example(
+        "/v1/radiance",
+        "as_the_authors",
+        "The first 100 terms only, with the error bound they have",
+        PAPER,
+    ),
+    example("/v1/radiance", "lambertian", "An ideal diffuser", LAMBERTIAN),
+    example(
+        "/v1/brdf",
+        "rough_conductor",
+        "Four directions of a rough conductor, all else by default",
+        FIRST,
+    ),
+    example("/v1/brdf", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+];
+
+const fn example(
+    path: &'static str,
+    name: &'static str,
+    summary: &'static str,
+    body: &'static str,
+) -> Example {
+    Example { path, name, summary, body }
+}

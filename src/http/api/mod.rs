@@ -1,0 +1,13 @@
+//! One file a resource: wire types, handler and its `OpenAPI` note.
+
+mod answer;
+pub(super) mod documents;
+pub(super) mod examples;
+pub(super) mod health;
+pub(super) mod radiance;
+mod responses;
+pub(super) mod roughness;
+mod scene;
+
+/// The body of the request that the program suggests when it starts.
+pub(super) const FIRST_REQUEST: &str = examples::FIRST;

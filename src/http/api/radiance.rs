@@ -1,0 +1,164 @@
+//! `POST /v1/radiance` and `POST /v1/brdf`: (47), (57), (72) and section 5.1 in given directions.
+
+use super::answer::Answer;
+use super::responses::PostProblems;
+use super::scene::CheckedScene;
+use crate::http::body::JsonBody;
+use crate::http::compute;
+use crate::http::encode::json;
+use crate::http::input::node::Node;
+use crate::http::input::object::{WireObject, object};
+use crate::http::input::reader::Reader;
+use crate::http::input::wire::{Schemas, Wire};
+use crate::http::negotiate::JsonOnly;
+use crate::http::problem::{Code, Problem};
+use crate::http::track::Deadline;
+use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
+use crate::reflectance::evaluate::{Output, Quantity, evaluate};
+use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
+use axum::response::Response;
+use utoipa::openapi::RefOr;
+use utoipa::openapi::schema::Schema;
+
+object! {
+    /// The directions: each angle one number, or an array with one number a direction. All arrays have one
+    /// length; numbers hold for every direction.
+    GeometryWire as "Geometry" {
+        /// θ_i, degrees.
+        theta_i_deg: Angles<SourceZenith>,
+        /// θ_r, degrees. Negative means the same zenith at φ_r + 180.
+        theta_r_deg: Angles<ViewerZenith>,
+        /// φ_r, degrees; 0 when absent or null: the half plane that holds the mirror direction.
+        phi_r_deg: Option<Angles<Azimuth>>,
+    }
+}
+
+object! {
+    /// What to add to the answer.
+    OutputWire as "Output" {
+        /// Adds the decimal logarithm of every value, right also where the value itself underflows to 0. False
+        /// when absent or null.
+        log10: Option<bool>,
+        /// Adds the method and the roughness g of each direction. False when absent or null.
+        per_direction: Option<bool>,
+    }
+}
+
+impl From<Option<OutputWire>> for Output {
+    fn from(wire: Option<OutputWire>) -> Self {
+        let (log10, per_direction) = wire.map_or((None, None), |wire| (wire.log10, wire.per_direction));
+        Self { log10: log10.unwrap_or(false), per_direction: per_direction.unwrap_or(false) }
+    }
+}
+
+/// Directions whose arrays have one length.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedDirections(pub(crate) Directions);
+
+impl Wire for CheckedDirections {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        let wire = GeometryWire::read(node, reader)?;
+        let phi_r = wire.phi_r_deg.or_else(|| Azimuth::new(0.0).ok().map(Angles::One))?;
+        match Directions::new(wire.theta_i_deg, wire.theta_r_deg, phi_r) {
+            Ok(directions) => Some(Self(directions)),
+            Err(errors) => {
+                for error in errors {
+                    note(error, reader);
+                }
+                None
+            }
+        }
+    }
+
+    fn schema() -> RefOr<Schema> {
+        GeometryWire::reference()
+    }
+
+    fn collect(schemas: &mut Schemas) {
+        GeometryWire::gather(schemas);
+    }
+}
+
+/// Notes what the core found at the field that a client knows.
+fn note(error: DirectionsError, reader: &mut Reader) {
+    let (angle, code, detail) = match error {
+        DirectionsError::Empty { angle } => (angle, Code::Empty, "the array is empty".to_owned()),
+        DirectionsError::UnequalLength { angle, length, expected } => {
+            let detail =
+                format!("the array has {length} elements, another has {expected}: expected one length");
+            (angle, Code::UnequalLengths, detail)
+        }
+        DirectionsError::TooMany { angle, length } => {
+            (angle, Code::TooMany, format!("the array has {length} elements: more than a request may have"))
+        }
+    };
+    let name = match angle {
+        DirectionAngle::ThetaI => "theta_i_deg",
+        DirectionAngle::ThetaR => "theta_r_deg",
+        DirectionAngle::PhiR => "phi_r_deg",
+    };
+    reader.within(name, |reader| reader.error(code, detail));
+}
+
+object! {
+    /// A scene, directions, and what to answer.
+    RadianceRequest as "RadianceRequest" {
+        /// The directions.
+        geometry: CheckedDirections,
+        /// What to add to the answer.
+        output: Option<OutputWire>,
+        ..scene: CheckedScene,
+    }
+}
+
+/// Radiance L_r (2) by component.
+///
+/// Up to 1,000,000 directions in one request. The unit is that of `irradiance` per steradian.
+#[utoipa::path(
+    post,
+    path = "/v1/radiance",
+    tag = "reflection",
+    request_body(content = RadianceRequest, description = "The scene and the directions."),
+    responses((status = 200, description = "The radiance in each direction.", body = Answer), PostProblems)
+)]
+pub(crate) async fn radiance(
+    _: JsonOnly,
+    deadline: Deadline,
+    JsonBody(request): JsonBody<RadianceRequest>,
+) -> Result<Response, Problem> {
+    answer(Quantity::Radiance, deadline, request).await
+}
+
+/// BRDF f_r = L_r/I_s (3) by component.
+///
+/// The same request as `/v1/radiance`; I_s = irradiance · cos θ_i is the irradiance of the surface.
+#[utoipa::path(
+    post,
+    path = "/v1/brdf",
+    tag = "reflection",
+    request_body(content = RadianceRequest, description = "The scene and the directions."),
+    responses((status = 200, description = "The BRDF in each direction.", body = Answer), PostProblems)
+)]
+pub(crate) async fn brdf(
+    _: JsonOnly,
+    deadline: Deadline,
+    JsonBody(request): JsonBody<RadianceRequest>,
+) -> Result<Response, Problem> {
+    answer(Quantity::Brdf, deadline, request).await
+}
+
+async fn answer(
+    quantity: Quantity,
+    deadline: Deadline,
+    request: RadianceRequest,
+) -> Result<Response, Problem> {
+    let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
+        request;
+    let count = directions.count();
+    compute::run(deadline, count, move || {
+        let evaluation = evaluate(&scene, &directions, quantity, output.into());
+        let answer = Answer::new(quantity, evaluation);
+        json::response(&answer, answer.size_hint())
+    })
+    .await
+}

@@ -1,0 +1,52 @@
+//! The errors that operations have in common, for the document.
+
+use crate::http::problem::{Document, Kind, PROBLEM_JSON};
+use std::collections::BTreeMap;
+use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
+use utoipa::{IntoResponses, ToSchema};
+
+/// Of an operation that takes JSON.
+pub(crate) struct PostProblems;
+
+impl IntoResponses for PostProblems {
+    fn responses() -> BTreeMap<String, RefOr<Response>> {
+        list(&[
+            (Kind::MalformedJson, "The body is not JSON; the detail says in which line and column."),
+            (Kind::NotAcceptable, "No accepted media type is offered; the detail lists those that are."),
+            (Kind::RequestTimeout, "The request did not arrive in time."),
+            (Kind::ContentTooLarge, "The body is larger than the limit, which the detail names."),
+            (Kind::UnsupportedMediaType, "The body is not declared as JSON."),
+            (Kind::InvalidRequest, "Fields are out of range or inconsistent: `errors` points at every one."),
+            (Kind::TooSlow, "The answer was not ready within the time limit."),
+        ])
+    }
+}
+
+/// Of an operation that takes a query.
+pub(crate) struct GetProblems;
+
+impl IntoResponses for GetProblems {
+    fn responses() -> BTreeMap<String, RefOr<Response>> {
+        list(&[
+            (Kind::MalformedQuery, "The query is not readable."),
+            (Kind::NotAcceptable, "No accepted media type is offered; the detail lists those that are."),
+            (
+                Kind::InvalidRequest,
+                "Parameters are out of range or inconsistent: `errors` points at every one.",
+            ),
+            (Kind::TooSlow, "The answer was not ready within the time limit."),
+        ])
+    }
+}
+
+pub(crate) fn list(problems: &[(Kind, &str)]) -> BTreeMap<String, RefOr<Response>> {
+    problems
+        .iter()
+        .map(|&(kind, description)| {
+            let schema = Ref::from_schema_name(Document::name());
+            let content = ContentBuilder::new().schema(Some(schema)).build();
+            let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content);
+            (kind.status().as_u16().to_string(), response.build().into())
+        })
+        .collect()
+}

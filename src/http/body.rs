@@ -1,0 +1,96 @@
+//! The JSON body of a request: checked head first, then read, then parsed.
+
+use super::Limits;
+use super::compute;
+use super::input::node;
+use super::input::reader::Reader;
+use super::input::wire::Wire;
+use super::problem::{Code, FieldError, Kind, Problem};
+use super::track::Deadline;
+use axum::body::Bytes;
+use axum::extract::{FromRequest, FromRequestParts as _, Request};
+use axum::http::{HeaderMap, header};
+use http_body_util::{BodyExt as _, LengthLimitError, Limited};
+
+/// Bodies up to this length are parsed where they are: about 100 µs.
+const SMALL: usize = 16 << 10;
+
+/// A value read from a JSON body.
+pub(super) struct JsonBody<T>(pub(super) T);
+
+impl<T: Wire + Send + 'static> FromRequest<Limits> for JsonBody<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, limits: &Limits) -> Result<Self, Problem> {
+        check_content_type(request.headers())?;
+        let (mut parts, body) = request.into_parts();
+        let Ok(deadline) = Deadline::from_request_parts(&mut parts, limits).await;
+        let request = Request::from_parts(parts, body);
+        let read = tokio::time::timeout_at(deadline.0, bytes(request, *limits));
+        let bytes = read.await.unwrap_or_else(|_| {
+            let limit = limits.request_time.as_secs_f64();
+            Err(Problem::new(Kind::RequestTimeout, format!("the body did not arrive within {limit} s")))
+        })?;
+        if bytes.len() <= SMALL {
+            read_json(&bytes).map(Self)
+        } else {
+            compute::blocking(deadline, move || read_json(&bytes)).await?.map(Self)
+        }
+    }
+}
+
+/// Accepts `application/json` and `application/…+json`, in UTF-8.
+fn check_content_type(headers: &HeaderMap) -> Result<(), Problem> {
+    let value = headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    let mut parts = value.split(';').map(|part| part.trim().to_ascii_lowercase());
+    let essence = parts.next().unwrap_or_default();
+    let json = essence == "application/json"
+        || essence.strip_prefix("application/").is_some_and(|subtype| subtype.ends_with("+json"));
+    let charset = parts.find_map(|part| Some(part.strip_prefix("charset=")?.trim_matches('"').to_owned()));
+    let unicode = charset.is_none_or(|charset| charset == "utf-8" || charset == "us-ascii");
+    if json && unicode {
+        return Ok(());
+    }
+    let found = if value.is_empty() {
+        "there is no Content-Type".to_owned()
+    } else {
+        format!("Content-Type is {value}")
+    };
+    Err(Problem::new(Kind::UnsupportedMediaType, format!("{found}; accepted: application/json, in UTF-8")))
+}
+
+async fn bytes(request: Request, limits: Limits) -> Result<Bytes, Problem> {
+    let too_large =
+        || Problem::new(Kind::ContentTooLarge, format!("the limit of a body is {} bytes", limits.body_bytes));
+    let announced = request
+        .headers()
+        .get(header::CONTENT_LENGTH)
+        .and_then(|value| value.to_str().ok()?.parse::<u64>().ok());
+    if announced.is_some_and(|length| length > limits.body_bytes) {
+        return Err(too_large());
+    }
+    let limit = usize::try_from(limits.body_bytes).unwrap_or(usize::MAX);
+    match Limited::new(request.into_body(), limit).collect().await {
+        Ok(collected) => Ok(collected.to_bytes()),
+        Err(error) if error.is::<LengthLimitError>() => Err(too_large()),
+        Err(error) => {
+            tracing::debug!(error, "a body ended early");
+            Err(Problem::new(Kind::BodyUnreadable, "the body ended early or was not framed as HTTP asks"))
+        }
+    }
+}
+
+/// Parses and checks.
+fn read_json<T: Wire>(bytes: &[u8]) -> Result<T, Problem> {
+    let node = node::parse(bytes).map_err(|error| {
+        if error.oversized {
+            let pointer = String::new();
+            Problem::invalid(vec![FieldError { pointer, code: Code::TooMany, detail: error.detail }])
+        } else {
+            Problem::new(Kind::MalformedJson, error.detail)
+        }
+    })?;
+    let mut reader = Reader::json();
+    let value = T::read(node, &mut reader);
+    reader.finish(value).map_err(Problem::invalid)
+}

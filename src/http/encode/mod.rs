@@ -1,0 +1,4 @@
+//! From answers to bytes, one file an encoding.
+
+pub(crate) mod json;
+pub(crate) mod numbers;

@@ -1,0 +1,313 @@
+//! JSON as a tree, arrays of numbers packed.
+
+use crate::reflectance::bounds;
+use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use std::cell::Cell;
+use std::fmt;
+
+/// A JSON value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Node {
+    Null,
+    Bool(bool),
+    Number(f64),
+    Text(String),
+    Array(Array),
+    Object(Object),
+}
+
+impl Node {
+    /// What kind of value it is, with its text where that is short: for messages.
+    pub(crate) fn describe(&self) -> String {
+        match self {
+            Self::Null => "null".to_owned(),
+            Self::Bool(value) => value.to_string(),
+            Self::Number(value) => format!("the number {value}"),
+            Self::Text(text) => format!("the string \"{}\"", excerpt(text)),
+            Self::Array(_) => "an array".to_owned(),
+            Self::Object(_) => "an object".to_owned(),
+        }
+    }
+}
+
+/// At most 40 characters of what a client sent, for messages.
+pub(crate) fn excerpt(text: &str) -> String {
+    const LONGEST: usize = 40;
+    let mut short: String = text.chars().take(LONGEST).filter(|c| !c.is_control()).collect();
+    if text.chars().nth(LONGEST).is_some() {
+        short.push('…');
+    }
+    short
+}
+
+/// An array. Numbers beyond the largest accepted array are counted, not kept.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Array {
+    /// The elements, NaN (which JSON cannot spell) where an element is not a number.
+    pub(crate) numbers: Vec<f64>,
+    /// The elements that are not numbers, with their positions.
+    pub(crate) others: Vec<(usize, Node)>,
+    /// How many elements there are.
+    pub(crate) length: usize,
+}
+
+/// An object.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Object {
+    /// Names and values, the first of each name.
+    pub(crate) fields: Vec<(String, Node)>,
+    /// Names given more than once.
+    pub(crate) duplicates: Vec<String>,
+}
+
+/// Why a text is no JSON.
+#[derive(Debug)]
+pub(crate) struct Malformed {
+    /// Whether the text was JSON, but with more values than any request has.
+    pub(crate) oversized: bool,
+    /// What and where.
+    pub(crate) detail: String,
+}
+
+/// Values that are not numbers in an array, in one body: no request needs more than a few dozen, and each
+/// costs fifty times its bytes.
+const MOST_NODES: usize = 4096;
+
+/// Reads JSON. A number beyond f64 (1e400) arrives as the string of its digits, so that it is reported as
+/// the error of a field like any other.
+pub(crate) fn parse(text: &[u8]) -> Result<Node, Malformed> {
+    match parse_strictly(text) {
+        Err(error) if error.is_syntax() && error.to_string().starts_with("number out of range") => {
+            let quoted = quote_unrepresentable(text);
+            parse_strictly(&quoted).map_err(|error| malformed(&quoted, &error))
+        }
+        other => other.map_err(|error| malformed(text, &error)),
+    }
+}
+
+fn parse_strictly(text: &[u8]) -> Result<Node, serde_json::Error> {
+    let budget = Cell::new(MOST_NODES);
+    let mut deserializer = serde_json::Deserializer::from_slice(text);
+    let node = Seed(&budget).deserialize(&mut deserializer)?;
+    deserializer.end()?;
+    Ok(node)
+}
+
+fn malformed(text: &[u8], error: &serde_json::Error) -> Malformed {
+    if error.is_data() {
+        return Malformed {
+            oversized: true,
+            detail: format!("the body has more than {MOST_NODES} values outside arrays of numbers"),
+        };
+    }
+    if text.is_empty() {
+        return Malformed { oversized: false, detail: "the body is empty".to_owned() };
+    }
+    let hint = if spells_non_number(text, error.line(), error.column()) {
+        "; JSON has no NaN or Infinity: every number has to be finite"
+    } else {
+        ""
+    };
+    Malformed { oversized: false, detail: format!("{error}{hint}") }
+}
+
+/// Whether the word at this place is NaN, Infinity or the like.
+fn spells_non_number(text: &[u8], line: usize, column: usize) -> bool {
+    let Some(line) = text.split(|&byte| byte == b'\n').nth(line.saturating_sub(1)) else { return false };
+    let part = |byte: &u8| byte.is_ascii_alphabetic() || *byte == b'-' || *byte == b'+';
+    let at = column.min(line.len());
+    let start = line[..at].iter().rposition(|byte| !part(byte)).map_or(0, |before| before + 1);
+    let end = line[at..].iter().position(|byte| !part(byte)).map_or(line.len(), |after| at + after);
+    let word = String::from_utf8_lossy(&line[start..end.max(start)]).to_ascii_lowercase();
+    matches!(word.trim_start_matches(['-', '+']), "nan" | "inf" | "infinity")
+}
+
+/// Puts quotes around each number literal that f64 cannot hold. Only called for such texts.
+fn quote_unrepresentable(text: &[u8]) -> Vec<u8> {
+    let mut quoted = Vec::with_capacity(text.len() + 64);
+    let mut at = 0;
+    while at < text.len() {
+        let start = at;
+        match text[at] {
+            b'"' => {
+                at += 1;
+                while at < text.len() && text[at] != b'"' {
+                    at += if text[at] == b'\\' { 2 } else { 1 };
+                }
+                at = (at + 1).min(text.len());
+                quoted.extend_from_slice(&text[start..at]);
+            }
+            b'-' | b'0'..=b'9' => {
+                while at < text.len() && matches!(text[at], b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9') {
+                    at += 1;
+                }
+                let literal = &text[start..at];
+                let infinite = str::from_utf8(literal)
+                    .ok()
+                    .and_then(|s| s.parse::<f64>().ok())
+                    .is_some_and(f64::is_infinite);
+                if infinite {
+                    quoted.push(b'"');
+                }
+                quoted.extend_from_slice(literal);
+                if infinite {
+                    quoted.push(b'"');
+                }
+            }
+            other => {
+                quoted.push(other);
+                at += 1;
+            }
+        }
+    }
+    quoted
+}
+
+/// Reads one value, and pays for it.
+#[derive(Clone, Copy)]
+struct Seed<'a>(&'a Cell<usize>);
+
+impl<'de> DeserializeSeed<'de> for Seed<'_> {
+    type Value = Node;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl Seed<'_> {
+    fn pay<E: serde::de::Error>(self) -> Result<(), E> {
+        let left = self.0.get().checked_sub(1).ok_or_else(|| E::custom("too many values"))?;
+        self.0.set(left);
+        Ok(())
+    }
+}
+
+impl<'de> Visitor<'de> for Seed<'_> {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Node, E> {
+        Ok(Node::Null)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
+        Ok(Node::Bool(value))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Node, E> {
+        Ok(Node::Number(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Node, E> {
+        Ok(Node::Number(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
+        Ok(Node::Number(value as f64))
+    }
+
+    fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Node, E> {
+        Ok(Node::Text(value.to_owned()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Node, A::Error> {
+        let mut array = Array::default();
+        while let Some(element) = elements.next_element_seed(self)? {
+            if array.length <= bounds::MAX_DIRECTIONS {
+                if let Node::Number(number) = element {
+                    array.numbers.push(number);
+                } else {
+                    self.pay()?;
+                    array.others.push((array.length, element));
+                    array.numbers.push(f64::NAN);
+                }
+            }
+            array.length += 1;
+        }
+        array.numbers.shrink_to_fit();
+        Ok(Node::Array(array))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Node, A::Error> {
+        let mut object = Object::default();
+        while let Some(name) = entries.next_key::<String>()? {
+            self.pay()?;
+            if object.fields.iter().any(|(known, _)| *known == name) {
+                entries.next_value::<IgnoredAny>()?;
+                object.duplicates.push(name);
+            } else {
+                let value = entries.next_value_seed(self)?;
+                object.fields.push((name, value));
+            }
+        }
+        Ok(Node::Object(object))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Node, parse};
+
+    fn refused(text: &str) -> String {
+        parse(text.as_bytes()).unwrap_err().detail
+    }
+
+    #[test]
+    fn numbers_are_the_nearest_doubles() {
+        for (text, value) in
+            [("0.1", 0.1), ("5e-324", 5e-324), ("1.7976931348623157e308", f64::MAX), ("-0.0", 0.0)]
+        {
+            assert_eq!(parse(text.as_bytes()).unwrap(), Node::Number(value));
+        }
+        // Halfway between two doubles but for the last digit.
+        assert_eq!(parse(b"9007199254740993.00000001").unwrap(), Node::Number(9007199254740994.0));
+    }
+
+    #[test]
+    fn broken_json_says_where_and_what() {
+        assert!(refused("{\"a\": 1,\n \"b\" 2}").contains("line 2 column"));
+        assert!(refused("").contains("empty"));
+        for text in ["{\"a\": NaN}", "[-Infinity]", "[1, Infinity]", "nan", "[+Infinity]"] {
+            assert!(refused(text).contains("no NaN"), "{text}: {}", refused(text));
+        }
+        assert!(!refused("{\"a\": nil}").contains("NaN"));
+        assert!(refused(&"[".repeat(10_000)).contains("recursion"));
+        assert!(parse(b"{\"a\": \"\xff\"}").is_err());
+        assert!(parse(b"1 2").is_err());
+    }
+
+    #[test]
+    fn what_f64_cannot_hold_becomes_a_string() {
+        let Node::Object(object) =
+            parse(br#"{"a": 1e400, "b": [1, -1e999], "c": "1e400 \" 2e500"}"#).unwrap()
+        else {
+            panic!("not an object");
+        };
+        assert_eq!(object.fields[0].1, Node::Text("1e400".to_owned()));
+        let Node::Array(array) = &object.fields[1].1 else { panic!("not an array") };
+        assert_eq!(array.others, [(1, Node::Text("-1e999".to_owned()))]);
+        assert_eq!(object.fields[2].1, Node::Text("1e400 \" 2e500".to_owned()));
+        assert!(refused("{\"a\": 1e400, ").contains("EOF"));
+    }
+
+    #[test]
+    fn duplicates_are_kept_apart() {
+        let Node::Object(object) = parse(br#"{"a": 1, "a": 2}"#).unwrap() else { panic!("not an object") };
+        assert_eq!(object.duplicates, ["a"]);
+        assert_eq!(object.fields.len(), 1);
+    }
+
+    #[test]
+    fn a_body_of_many_values_is_refused_before_it_costs_memory() {
+        let text = format!("[{}]", vec!["[]"; 5000].join(","));
+        assert!(parse(text.as_bytes()).unwrap_err().oversized);
+        let Node::Array(array) = parse(format!("[{}]", vec!["1"; 5000].join(",")).as_bytes()).unwrap() else {
+            panic!("not an array");
+        };
+        assert_eq!(array.numbers.len(), 5000);
+    }
+}

@@ -1,0 +1,96 @@
+//! The query of a link as an object whose values are texts.
+
+use super::node::{Array, Node, Object};
+use super::object::WireObject;
+use super::reader::{Fields, Reader};
+use crate::http::Limits;
+use crate::http::problem::{Kind, Problem};
+use axum::extract::FromRequestParts;
+use axum::http::request::Parts;
+
+/// A value read from the query.
+pub(crate) struct Query<T>(pub(crate) T);
+
+impl<T: WireObject + Send> FromRequestParts<Limits> for Query<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &Limits) -> Result<Self, Problem> {
+        read(parts.uri.query().unwrap_or_default()).map(Self)
+    }
+}
+
+fn read<T: WireObject>(query: &str) -> Result<T, Problem> {
+    let mut fields = Fields::new(object(query)?);
+    let mut reader = Reader::query();
+    let value = T::take(&mut fields, &mut reader);
+    fields.finish(&mut reader, &T::flat_names());
+    reader.finish(value).map_err(Problem::invalid)
+}
+
+/// Names and values; a name given several times has an array of texts.
+fn object(query: &str) -> Result<Object, Problem> {
+    let mut object = Object::default();
+    for pair in query.split('&').filter(|pair| !pair.is_empty()) {
+        let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+        let (name, value) = (decode(name)?, Node::Text(decode(value)?));
+        match object.fields.iter_mut().find(|(known, _)| *known == name) {
+            None => object.fields.push((name, value)),
+            Some((_, Node::Array(array))) => append(array, value),
+            Some((_, first)) => {
+                let mut array = Array::default();
+                append(&mut array, std::mem::replace(first, Node::Null));
+                append(&mut array, value);
+                *first = Node::Array(array);
+            }
+        }
+    }
+    Ok(object)
+}
+
+fn append(array: &mut Array, value: Node) {
+    array.others.push((array.length, value));
+    array.numbers.push(f64::NAN);
+    array.length += 1;
+}
+
+/// Percent-decoding of `application/x-www-form-urlencoded`: "+" is a blank.
+fn decode(text: &str) -> Result<String, Problem> {
+    let malformed = |what: &str| Problem::new(Kind::MalformedQuery, format!("the query has {what}"));
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.bytes();
+    while let Some(byte) = rest.next() {
+        bytes.push(match byte {
+            b'+' => b' ',
+            b'%' => {
+                let digit = |byte: Option<u8>| char::from(byte?).to_digit(16);
+                let value = digit(rest.next()).zip(digit(rest.next())).map(|(high, low)| high * 16 + low);
+                value
+                    .and_then(|value| u8::try_from(value).ok())
+                    .ok_or_else(|| malformed("a % that two hexadecimal digits do not follow"))?
+            }
+            other => other,
+        });
+    }
+    String::from_utf8(bytes).map_err(|_| malformed("bytes that are not UTF-8"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Node, decode, object};
+
+    #[test]
+    fn decodes_as_forms_do() {
+        assert_eq!(decode("a+b%2Bc%C3%A9").unwrap(), "a b+cé");
+        for wrong in ["%", "%4", "%zz", "%ff"] {
+            assert!(decode(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn repeated_names_become_an_array() {
+        let object = object("a=1&b=2&a=3&&c").unwrap();
+        let Node::Array(array) = &object.fields[0].1 else { panic!("not an array") };
+        assert_eq!(array.others, [(0, Node::Text("1".into())), (1, Node::Text("3".into()))]);
+        assert_eq!(object.fields[2], ("c".into(), Node::Text(String::new())));
+    }
+}

@@ -1,0 +1,355 @@
+//! How the core's own types are read.
+
+use super::node::Node;
+use super::object::{WireObject, object};
+use super::reader::{ElementErrors, Fields, Reader};
+use super::wire::{Parameter, Schemas, Wire, mismatch, named, named_schema, read_named};
+use crate::http::problem::Code;
+use crate::reflectance::bounds::MAX_DIRECTIONS;
+use crate::reflectance::directions::Angles;
+use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
+use crate::reflectance::numeric::lobe_series::Method;
+use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
+use crate::reflectance::scene::{Component, Components, Model};
+use crate::reflectance::shadowing::Shadowing;
+use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Schema, Type};
+use utoipa::openapi::{OneOfBuilder, RefOr};
+
+named! {
+    Model, "a model", Model::ALL;
+    Component, "a component", Component::ALL;
+    Method, "a method", Method::ALL;
+}
+
+impl<Q: Quantity> Wire for Angles<Q> {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        match node {
+            Node::Array(_) => many(node, MAX_DIRECTIONS, reader).map(Self::Each),
+            Node::Number(_) | Node::Text(_) => Q::read(node, reader).map(Self::One),
+            other => {
+                reader.fail(Code::WrongType, mismatch(&other, &format!("{}, or an array of such", Q::BOUNDS)))
+            }
+        }
+    }
+
+    fn schema() -> RefOr<Schema> {
+        OneOfBuilder::new().item(Q::schema()).item(list_schema(Q::schema(), MAX_DIRECTIONS)).into()
+    }
+}
+
+/// The schema of an array with 1 to `most` elements.
+fn list_schema(items: RefOr<Schema>, most: usize) -> Array {
+    ArrayBuilder::new().items(items).min_items(Some(1)).max_items(Some(most)).build()
+}
+
+/// A list of numbers; in a query, separated by commas or given one by one.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Q>);
+
+impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        let node = if reader.is_flat() { split(node) } else { node };
+        many(node, MOST, reader).map(Self)
+    }
+
+    fn schema() -> RefOr<Schema> {
+        list_schema(Q::schema(), MOST).into()
+    }
+}
+
+/// The texts of a query parameter, taken apart at their commas.
+fn split(node: Node) -> Node {
+    let texts = match node {
+        Node::Array(array) => array.others.into_iter().map(|(_, text)| text).collect(),
+        text => vec![text],
+    };
+    let parts: Vec<Node> = texts
+        .iter()
+        .filter_map(|text| if let Node::Text(text) = text { Some(text) } else { None })
+        .flat_map(|text| text.split(','))
+        .map(|part| Node::Text(part.to_owned()))
+        .collect();
+    Node::Array(super::node::Array {
+        numbers: vec![f64::NAN; parts.len()],
+        length: parts.len(),
+        others: parts.into_iter().enumerate().collect(),
+    })
+}
+
+/// An array of numbers. Elements that are not accepted are noted and replaced, so that its length can be
+/// compared with that of others.
+fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec<Q>> {
+    let Node::Array(array) = node else {
+        return reader
+            .fail(Code::WrongType, mismatch(&node, &format!("an array, each element {}", Q::BOUNDS)));
+    };
+    if array.length == 0 {
+        return reader.fail(Code::Empty, format!("the array is empty: expected from 1 to {most} elements"));
+    }
+    if array.length > most {
+        let detail = format!("the array has {} elements: expected from 1 to {most}", array.length);
+        return reader.fail(Code::TooMany, detail);
+    }
+    let mut numbers = array.numbers;
+    let mut errors = ElementErrors::default();
+    for (index, other) in array.others {
+        if let (true, Node::Text(text)) = (reader.is_flat(), &other) {
+            numbers[index] = super::wire::text_number(text).unwrap_or(f64::NAN);
+            if !numbers[index].is_nan() {
+                continue;
+            }
+        }
+        // A bound itself is accepted: what comes after sees no second error.
+        numbers[index] = Q::BOUNDS.min;
+        errors.note(reader, index, Code::WrongType, || mismatch(&other, Q::BOUNDS));
+    }
+    for (index, value) in numbers.iter_mut().enumerate() {
+        if let Err(error) = Q::new(*value) {
+            errors.note(reader, index, Code::OutOfRange, || error.to_string());
+            *value = Q::BOUNDS.min;
+        }
+    }
+    errors.finish(reader);
+    numbers.into_iter().map(|value| Q::new(value).ok()).collect()
+}
+
+impl Wire for String {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        match node {
+            Node::Text(text) => Some(text),
+            other => reader.fail(Code::WrongType, mismatch(&other, &"a string")),
+        }
+    }
+
+    fn schema() -> RefOr<Schema> {
+        ObjectBuilder::new().schema_type(Type::String).into()
+    }
+}
+
+object! {
+    /// A complex index of refraction n − ik.
+    IndexWire as "RefractiveIndex" {
+        /// n.
+        n: IndexN,
+        /// k, not negative; 0 when absent.
+        k: Option<IndexK>,
+    }
+}
+
+/// The names that a medium can have.
+const MEDIA: [&str; 1] = ["perfect_conductor"];
+
+impl Wire for Medium {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        let expected = "\"perfect_conductor\" or an object with n and k";
+        match node {
+            Node::Text(text) if MEDIA.contains(&text.as_str()) => Some(Self::PerfectConductor),
+            Node::Text(text) => {
+                let detail =
+                    format!("\"{}\" is not a medium: expected {expected}", super::node::excerpt(&text));
+                reader.fail(Code::UnknownValue, detail)
+            }
+            Node::Object(object) if object.fields.iter().any(|(name, _)| name == "material") => reader
+                .within("material", |reader| {
+                    reader
+                        .fail(Code::NotOffered, format!("no materials are offered yet: expected {expected}"))
+                }),
+            Node::Object(_) => IndexWire::read_object(node, reader).and_then(index),
+            other => reader.fail(Code::WrongType, mismatch(&other, &expected)),
+        }
+    }
+
+    fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        if fields.has_any(&[name]) {
+            fields.take_named(reader, name)
+        } else {
+            IndexWire::take(fields, reader).and_then(index)
+        }
+    }
+
+    fn is_given(name: &'static str, fields: &Fields) -> bool {
+        fields.has_any(&[name, "n", "k"])
+    }
+
+    fn schema() -> RefOr<Schema> {
+        let names = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA));
+        OneOfBuilder::new().item(names).item(IndexWire::reference()).into()
+    }
+
+    fn collect(schemas: &mut Schemas) {
+        IndexWire::gather(schemas);
+    }
+
+    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
+        let schema = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA)).into();
+        let description = format!("{description} Or n and k.");
+        let mut parameters = vec![Parameter { name, description, required, schema }];
+        parameters.extend(IndexWire::query_parameters(false));
+        parameters
+    }
+}
+
+fn index(wire: IndexWire) -> Option<Medium> {
+    let k = wire.k.or_else(|| IndexK::new(0.0).ok())?;
+    Some(Medium::Index(RefractiveIndex { n: wire.n, k }))
+}
+
+object! {
+    /// Shares of the incident energy polarized parallel and perpendicular to the facet's plane of incidence,
+    /// which add up to 1.
+    MixWire as "PolarizationMix" {
+        /// h of (63).
+        parallel: Fraction,
+        /// v of (63).
+        perpendicular: Fraction,
+    }
+}
+
+impl MixWire {
+    fn check(&self, reader: &mut Reader) -> Option<Polarization> {
+        Polarization::mix(self.parallel, self.perpendicular)
+            .map_err(|error| reader.error(Code::Inconsistent, error.to_string()))
+            .ok()
+    }
+}
+
+/// The polarizations that have a name.
+#[derive(Clone, Copy)]
+enum NamedPolarization {
+    Unpolarized,
+    Parallel,
+    Perpendicular,
+}
+
+impl NamedPolarization {
+    const ALL: [Self; 3] = [Self::Unpolarized, Self::Parallel, Self::Perpendicular];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Unpolarized => "unpolarized",
+            Self::Parallel => "parallel",
+            Self::Perpendicular => "perpendicular",
+        }
+    }
+
+    fn value(self) -> Polarization {
+        match self {
+            Self::Unpolarized => Polarization::unpolarized(),
+            Self::Parallel => Polarization::parallel(),
+            Self::Perpendicular => Polarization::perpendicular(),
+        }
+    }
+}
+
+named! {
+    NamedPolarization, "a polarization", NamedPolarization::ALL;
+}
+
+impl Wire for Polarization {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        match node {
+            Node::Object(_) => MixWire::read_object(node, reader)?.check(reader),
+            node => read_named::<NamedPolarization>(&node, reader).map(NamedPolarization::value),
+        }
+    }
+
+    fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        if fields.has_any(&[name]) {
+            fields.take_named(reader, name)
+        } else {
+            let mix = MixWire::take(fields, reader)?;
+            reader.within("parallel", |reader| mix.check(reader))
+        }
+    }
+
+    fn is_given(name: &'static str, fields: &Fields) -> bool {
+        fields.has_any(&[name, "parallel", "perpendicular"])
+    }
+
+    fn schema() -> RefOr<Schema> {
+        OneOfBuilder::new().item(named_schema::<NamedPolarization>()).item(MixWire::reference()).into()
+    }
+
+    fn collect(schemas: &mut Schemas) {
+        MixWire::gather(schemas);
+    }
+
+    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
+        let schema = named_schema::<NamedPolarization>();
+        let description =
+            format!("{description} Or `parallel` and `perpendicular`, two shares that add up to 1.");
+        let mut parameters = vec![Parameter { name, description, required, schema }];
+        parameters.extend(MixWire::query_parameters(false));
+        parameters
+    }
+}
+
+/// The shadowings that this version offers.
+const SHADOWINGS: [Shadowing; 2] = [Shadowing::None, Shadowing::VGroove];
+
+impl super::wire::Named for Shadowing {
+    const WHAT: &'static str = "a shadowing";
+    const ALL: &'static [Self] = &SHADOWINGS;
+    fn wire_name(self) -> &'static str {
+        self.name()
+    }
+}
+
+impl Wire for Shadowing {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        if node == Node::Text("smith".to_owned()) {
+            return reader
+                .fail(Code::NotOffered, "\"smith\" is not offered yet: expected one of none, v_groove");
+        }
+        read_named(&node, reader)
+    }
+
+    fn schema() -> RefOr<Schema> {
+        named_schema::<Self>()
+    }
+}
+
+impl Wire for Components {
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        let node = match node {
+            Node::Text(text) if text == "auto" => return Some(Self::Auto),
+            node if reader.is_flat() => split(node),
+            node => node,
+        };
+        let Node::Array(array) = node else {
+            let expected = "\"auto\" or an array of diffuse_lobe, specular_lobe, specular_spike";
+            return reader.fail(Code::WrongType, mismatch(&node, &expected));
+        };
+        if array.others.len() < array.length {
+            let expected = "an array of diffuse_lobe, specular_lobe, specular_spike";
+            return reader.fail(Code::WrongType, format!("found an array with numbers: expected {expected}"));
+        }
+        let mut errors = 0;
+        let mut named = Vec::new();
+        for (position, node) in array.others {
+            match reader.at(position, |reader| read_named::<Component>(&node, reader)) {
+                Some(component) => named.push(component),
+                None => errors += 1,
+            }
+        }
+        (errors == 0).then_some(Self::Named(named))
+    }
+
+    fn schema() -> RefOr<Schema> {
+        let auto = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(["auto"]));
+        let list = ArrayBuilder::new()
+            .items(named_schema::<Component>())
+            .min_items(Some(1))
+            .max_items(Some(Component::ALL.len()))
+            .unique_items(true);
+        OneOfBuilder::new().item(auto).item(list).into()
+    }
+
+    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
+        // A query has no oneOf of a word and a list: one list of words says the same.
+        let words = std::iter::once("auto").chain(Component::ALL.iter().map(|component| component.name()));
+        let word = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(words)).into();
+        let schema = list_schema(word, Component::ALL.len()).into();
+        vec![Parameter { name, description: description.to_owned(), required, schema }]
+    }
+}

@@ -1,0 +1,36 @@
+//! The only list of routes: routing and document both come from it.
+
+use super::Limits;
+use super::api::{documents, health, radiance, roughness};
+use super::openapi;
+use super::problem::Problem;
+use super::track::not_found;
+use axum::Router;
+use utoipa::openapi::OpenApi;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+/// Every documented resource.
+fn documented() -> OpenApiRouter<Limits> {
+    OpenApiRouter::with_openapi(openapi::information())
+        .routes(routes!(radiance::radiance))
+        .routes(routes!(radiance::brdf))
+        .routes(routes!(roughness::roughness))
+        .routes(routes!(health::livez))
+        .routes(routes!(health::readyz))
+        .routes(routes!(documents::openapi))
+}
+
+/// The document alone.
+pub(super) fn document() -> OpenApi {
+    openapi::complete(documented().into_openapi())
+}
+
+/// The service's routes.
+pub(super) fn routes(limits: Limits) -> Router {
+    let (router, _) = documented().split_for_parts();
+    router
+        .merge(documents::reference())
+        .fallback(|| async { Err::<(), Problem>(not_found()) })
+        .with_state(limits)
+}

@@ -1,0 +1,66 @@
+//! The `reflectance` service: arguments, logs, listen, serve until told to stop.
+
+use clap::Parser as _;
+use clap::error::ErrorKind;
+use reflectance::config::{Cli, Command, Config, LogFormat};
+use reflectance::http;
+use std::io::Write as _;
+use std::process::ExitCode;
+use tokio::net::TcpListener;
+
+/// The exit code of a configuration that cannot be served.
+const UNUSABLE: u8 = 2;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            error.exit()
+        }
+        Err(error) => {
+            let text = error.to_string();
+            let line = text.lines().next().unwrap_or_default();
+            return fail(line.trim_start_matches("error: "));
+        }
+    };
+    match cli.command {
+        Some(Command::Openapi) => print(&http::openapi_json()),
+        None => serve(&cli.config),
+    }
+}
+
+#[tokio::main]
+async fn serve(config: &Config) -> ExitCode {
+    let logs = tracing_subscriber::fmt().with_max_level(config.log_level).with_writer(std::io::stderr);
+    match config.log_format {
+        LogFormat::Human => logs.with_target(false).init(),
+        LogFormat::Json => logs.json().flatten_event(true).with_target(false).init(),
+    }
+    let listener = match TcpListener::bind(&config.listen).await {
+        Ok(listener) => listener,
+        Err(error) => return fail(&format!("cannot listen on {}: {error}", config.listen)),
+    };
+    let address = match listener.local_addr() {
+        Ok(address) => address,
+        Err(error) => return fail(&format!("cannot tell the address of {}: {error}", config.listen)),
+    };
+    if print(&http::greeting(address)) != ExitCode::SUCCESS {
+        return ExitCode::FAILURE;
+    }
+    http::serve(listener, config).await;
+    ExitCode::SUCCESS
+}
+
+/// Writes to standard output; a closed pipe is an exit code, not a panic.
+fn print(text: &str) -> ExitCode {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
+fn fail(reason: &str) -> ExitCode {
+    eprintln!("reflectance: {reason}");
+    ExitCode::from(UNUSABLE)
+}
