@@ -1,7 +1,9 @@
 //! What the oracle's tables leave out: the condition of Fresnel's laws with respect to the cosine
 //! and the sine of the angle of incidence, taken as independent numbers, for n − ik.
 
+use crate::fresnel::{index, polarization};
 use num_complex::Complex64;
+use reflectance::reflectance::degrees::SinCos;
 
 /// |∂ ln F/∂ ln cos| + |∂ ln F/∂ ln sin| of the fields (24), (25) and of their energies (62).
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,4 +45,13 @@ impl Fresnel {
             energy_perpendicular: energy(perpendicular),
         }
     }
+}
+
+/// The condition of h F′_para + v F′_perp: each energy's, weighted by its share.
+pub fn mixed(n: f64, k: f64, incidence: SinCos, h: f64, v: f64) -> f64 {
+    let condition = Fresnel::of(n, k, incidence.cos, incidence.sin);
+    let energies = index(n, k).energies(incidence);
+    let (parallel, perpendicular) = (h * energies.parallel.value, v * energies.perpendicular.value);
+    let sum = index(n, k).reflectance(incidence, polarization(h, v)).value;
+    (parallel * condition.energy_parallel + perpendicular * condition.energy_perpendicular) / sum
 }

@@ -2,6 +2,7 @@
 //! `cargo test --test golden -- --nocapture` prints the worst error of every quantity.
 
 mod accuracy;
+mod api;
 mod bs;
 mod condition;
 mod family;
@@ -10,6 +11,7 @@ mod image;
 mod measure;
 mod roughness;
 mod series;
+mod server;
 mod surface;
 mod table;
 mod ts;
@@ -26,5 +28,6 @@ fn docs_accuracy_is_up_to_date() {
         &ts::MEASURED,
         &roughness::MEASURED,
         &image::MEASURED,
+        &api::MEASURED,
     ]);
 }

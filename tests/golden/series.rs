@@ -15,6 +15,11 @@ fn check(line: &Line<'_>) {
     line.scaled("S", series.value, cint);
     // S ≤ 0.52, so that its logarithm is never near 0: judged relatively, and by no condition.
     line.value("lnS", series.value.ln(), 0.0);
+    // The core's own condition is the oracle's, to its three digits.
+    let condition = series.condition_g + series.condition_x;
+    if !((condition - cint).abs() <= 0.006 * (1.0 + cint)) {
+        line.fail("S", &format!("has condition {cint}, computed {condition}"));
+    }
     let exact = row.exact("S");
     if exact.log.is_none() {
         line.bound("S", series.value.to_f64(), series.relative_error * exact.nearest);
