@@ -1,6 +1,6 @@
 //! A value with an absolute error bound, both with exponents that cannot run out.
 
-use super::numeric::scaled::Scaled;
+use super::numeric::{EPSILON, scaled::Scaled};
 
 /// |exact − value| ≤ error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,10 +44,14 @@ impl Estimate {
         Self { value: self.value * factor, error: self.error * factor }
     }
 
-    /// The sum; the bounds add.
+    /// The sum; the bounds add, and the rounding of the sum.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        Self { value: self.value + other.value, error: self.error + other.error }
+        if other.value.is_zero() && other.error.is_zero() {
+            return self;
+        }
+        let value = self.value + other.value;
+        Self { value, error: self.error + other.error + value * EPSILON }
     }
 
     /// error/value: 0 for an exact zero, infinite for a zero that is not exact.
