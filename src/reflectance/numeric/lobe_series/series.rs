@@ -15,8 +15,9 @@ use crate::reflectance::numeric::scaled::Scaled;
 const NEGLIGIBLE: f64 = 1.0 / (1u64 << 58) as f64;
 /// From this variance of the terms on, every h-th term is enough: the first terms are below e^{-60}.
 const STRIDED_FROM_VARIANCE: f64 = 64.0;
-/// From this μ on f64 cannot tell neighbouring terms apart, and c₁/μ of the expansion is below 1e-20.
-const CONTINUOUS_FROM: f64 = 1e20;
+/// From this μ w on, which is the size of the exponents, their rounding leaves the terms no digits to
+/// be summed with; μ is then above 1e10 and c₅/μ⁵ below 1e-47.
+const CONTINUOUS_FROM: f64 = 1e14;
 /// The authors' number of terms.
 const PAPER_TERMS: f64 = 100.0;
 
@@ -47,10 +48,8 @@ impl Moments {
 
 /// S to full precision.
 pub(super) fn converged(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
-    if saddle.mu >= CONTINUOUS_FROM {
-        let (condition_g, condition_x) = uniform::conditions(g, x, saddle);
-        let value = uniform::leading_term(g, x, saddle);
-        LobeSeries::converged(value, 0.0, condition_g, condition_x, Method::Series)
+    if saddle.mu * saddle.w >= CONTINUOUS_FROM {
+        LobeSeries { method: Method::Series, ..uniform::order_four(g, x, saddle) }
     } else if saddle.variance() >= STRIDED_FROM_VARIANCE {
         strided(g, x, saddle)
     } else {

@@ -82,7 +82,14 @@ pub(super) fn conditions(g: f64, x: f64, saddle: &Saddle) -> (f64, f64) {
 /// e^ψ/(μ √w).
 pub(super) fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
     let Saddle { u, mu, w } = *saddle;
-    // With 2u μ = 2x/μ the exponent is μ − g − 2x/μ; for small u the difference μ − g is g expm1(u).
-    let psi = if u < 0.5 { g * (libm::expm1(u) - 2.0 * u * libm::exp(u)) } else { mu - g - 2.0 * (x / mu) };
+    // For small u in a form that does not cancel. For large u stationary in μ: with 2x/μ in place of
+    // μ ln(μ/g) + x/μ, the rounding of μ would come back w times as large.
+    let psi = if u < 0.5 {
+        g * (libm::expm1(u) - 2.0 * u * libm::exp(u))
+    } else {
+        // Beyond u = 600 the quotient may overflow.
+        let ln_ratio = if u < 600.0 { libm::log(mu / g) } else { libm::log(mu) - libm::log(g) };
+        (mu - g) - mu * ln_ratio - x / mu
+    };
     Scaled::exp(psi) * Scaled::new(1.0 / (mu * w.sqrt()))
 }
