@@ -11,7 +11,7 @@ pub static MEASURED: LazyLock<Measured> =
 fn check(line: &Line<'_>) {
     let row = &line.row;
     let cint = row.cond("S").expect("condition of S");
-    let series = lobe_series::evaluate(Method::Series, row.input("g"), row.input("x"), 0.0);
+    let series = lobe_series::evaluate(Method::Series, row.input("g"), row.input("x"));
     line.scaled("S", series.estimate.value, cint);
     // S ≤ 0.52, so that its logarithm is never near 0: judged relatively, and by no condition.
     line.value("lnS", series.estimate.value.ln(), 0.0);
@@ -22,7 +22,7 @@ fn check(line: &Line<'_>) {
     }
     let exact = row.exact("S");
     if exact.log.is_none() {
-        line.bound("S", series.estimate.value.to_f64(), series.relative_error * exact.nearest);
+        line.bound("S", series.estimate.value.to_f64(), series.estimate.error.to_f64());
     }
 }
 

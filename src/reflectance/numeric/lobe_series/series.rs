@@ -22,25 +22,30 @@ const CONTINUOUS_FROM: f64 = 1e14;
 const PAPER_TERMS: f64 = 100.0;
 
 /// Σ t_m/t_c with its first moments.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Moments {
+    g: f64,
     sum: f64,
-    /// Σ m t
+    /// Σ (m − g) t
     first: f64,
     /// Σ t/m
     inverse: f64,
 }
 
 impl Moments {
+    fn around(g: f64) -> Self {
+        Self { g, sum: 0.0, first: 0.0, inverse: 0.0 }
+    }
+
     fn add(&mut self, m: f64, t: f64) {
         self.sum += t;
-        self.first += m * t;
+        self.first += (m - self.g) * t;
         self.inverse += t / m;
     }
 
     /// The sum times the term it is relative to, and its conditions.
-    fn series(self, g: f64, x: f64, reference: Scaled, method: Method) -> LobeSeries {
-        let condition_g = (self.first / self.sum - g).abs();
+    fn series(self, x: f64, reference: Scaled, method: Method) -> LobeSeries {
+        let condition_g = (self.first / self.sum).abs();
         let condition_x = x * (self.inverse / self.sum);
         LobeSeries::converged(reference * self.sum, 0.0, condition_g, condition_x, method)
     }
@@ -55,7 +60,7 @@ pub(super) fn converged(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     } else {
         let centre = saddle.mu.round().max(1.0);
         let moments = neighbours(g, x, centre, f64::INFINITY);
-        moments.series(g, x, term(centre, g, x), Method::Series)
+        moments.series(x, term(centre, g, x), Method::Series)
     }
 }
 
@@ -64,7 +69,7 @@ pub(super) fn first_hundred(g: f64, x: f64) -> LobeSeries {
     let saddle = Saddle::of(g, x);
     let centre = saddle.mu.round().clamp(1.0, PAPER_TERMS);
     let moments = neighbours(g, x, centre, PAPER_TERMS);
-    let partial = moments.series(g, x, term(centre, g, x), Method::Paper);
+    let partial = moments.series(x, term(centre, g, x), Method::Paper);
     let value = partial.estimate.value;
     // With the ratio from the 101st term on falling, the rest is at most t₁₀₁/(1 − ratio).
     let next = PAPER_TERMS + 1.0;
@@ -93,7 +98,7 @@ fn tilted(g: f64, tilt: f64) -> f64 {
 
 /// All terms that matter on both sides of `centre`, up to `last`, relative to the one at `centre`.
 fn neighbours(g: f64, x: f64, centre: f64, last: f64) -> Moments {
-    let mut moments = Moments::default();
+    let mut moments = Moments::around(g);
     moments.add(centre, 1.0);
     let (mut m, mut t) = (centre, 1.0);
     let mut matters = true;
@@ -123,7 +128,7 @@ fn strided(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     let centre = (saddle.mu / stride).round() * stride;
     let exponent_at_centre = exponent(centre, g, x);
     let weight = |m: f64| libm::exp(exponent_at_centre - exponent(m, g, x)) / (m * m.sqrt());
-    let mut moments = Moments::default();
+    let mut moments = Moments::around(g);
     moments.add(centre, weight(centre));
     let mut m = centre;
     let mut matters = true;
@@ -142,7 +147,7 @@ fn strided(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
         matters = t >= NEGLIGIBLE * moments.sum;
     }
     let scale = stride / (2.0 * core::f64::consts::PI).sqrt();
-    moments.series(g, x, Scaled::exp(-exponent_at_centre) * scale, Method::Series)
+    moments.series(x, Scaled::exp(-exponent_at_centre) * scale, Method::Series)
 }
 
 /// One term, e^{-g} g^m/(m! m) e^{-x/m}.

@@ -74,9 +74,12 @@ pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     }
 }
 
-/// |∂ ln S/∂ ln g| and |∂ ln S/∂ ln x| at the saddle.
-pub(super) fn conditions(g: f64, x: f64, saddle: &Saddle) -> (f64, f64) {
-    ((saddle.mu - g).abs().max(1.0), x / saddle.mu)
+/// |∂ ln S/∂ ln g| and |∂ ln S/∂ ln x| of the leading term: with ∂u/∂ ln g = −2u/w and
+/// ∂u/∂ ln x = u/w, the exponent adds μ − g and −x/μ, the rest what follows.
+fn conditions(g: f64, x: f64, &Saddle { u, mu, w }: &Saddle) -> (f64, f64) {
+    // μ − g cancels for small u; g expm1(u) does not, but overflows where g is tiny.
+    let shift = if u < 1.0 { g * libm::expm1(u) } else { mu - g };
+    ((shift - 1.0 / w + 2.0 * u / (w * w)).abs(), x / mu + u / w + u / (w * w))
 }
 
 /// e^ψ/(μ √w).
