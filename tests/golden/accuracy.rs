@@ -25,7 +25,8 @@ fn rounded_up(units: f64) -> f64 {
 }
 
 fn table(families: &[&Measured]) -> String {
-    let mut text = String::from("| family | quantity | values | worst, units | at |\n| --- | --- | --- | --- | --- |\n");
+    let mut text =
+        String::from("| family | quantity | values | worst, units | at |\n| --- | --- | --- | --- | --- |\n");
     for family in families {
         for (quantity, worst) in &family.worst {
             let (name, units) = (family.name, rounded_up(worst.units));
@@ -62,14 +63,17 @@ fn differences(families: &[&Measured], text: &str) -> Vec<String> {
                 found.push(format!("{name}: {} values, the table says {count}", worst.count));
             }
             if !(worst.units <= units) {
-                found.push(format!("{name}: {} units at {}, the table says {units}", worst.units, worst.line));
+                found
+                    .push(format!("{name}: {} units at {}, the table says {units}", worst.units, worst.line));
             }
             if units > SLACK * worst.units + NEGLIGIBLE {
                 found.push(format!("{name}: only {} units, the table says {units}", worst.units));
             }
         }
     }
-    found.extend(committed.keys().map(|(family, quantity)| format!("{family} {quantity}: no longer measured")));
+    found.extend(
+        committed.keys().map(|(family, quantity)| format!("{family} {quantity}: no longer measured")),
+    );
     found
 }
 
@@ -80,7 +84,8 @@ pub fn hold(families: &[&Measured]) {
     let (before, rest) = document.split_once(BEGIN).expect("begin mark");
     let (text, after) = rest.split_once(END).expect("end mark");
     if std::env::var_os("UPDATE_ACCURACY").is_some() {
-        std::fs::write(&path, [before, BEGIN, &table(families), END, after].concat()).expect("docs/accuracy.md");
+        std::fs::write(&path, [before, BEGIN, &table(families), END, after].concat())
+            .expect("docs/accuracy.md");
         return;
     }
     let found = differences(families, text);
@@ -101,7 +106,9 @@ fn the_table_holds_both_ways() {
     };
     let text = table(&[&measured(8.02)]);
     assert!(text.contains("| family | quantity | 3 | 8.1 | line |"), "{text}");
-    for (units, fits) in [(8.02, true), (8.1, true), (6.7, true), (8.11, false), (6.0, false), (f64::NAN, false)] {
+    for (units, fits) in
+        [(8.02, true), (8.1, true), (6.7, true), (8.11, false), (6.0, false), (f64::NAN, false)]
+    {
         assert_eq!(differences(&[&measured(units)], &text).is_empty(), fits, "{units}");
     }
     assert_eq!(differences(&[], &text).len(), 1);

@@ -21,10 +21,8 @@ impl Fresnel {
         // At the critical angle the true root lies between 0 and √ε n: its rounding, not 0, limits the field.
         let least = f64::EPSILON * n * n;
         let root = if root2.norm() < least { Complex64::from(least) } else { root2 }.sqrt();
-        let brewster = Complex64::new(
-            (n * cos - sin) * (n * cos + sin) - k * k * cos * cos,
-            -2.0 * n * k * cos * cos,
-        );
+        let brewster =
+            Complex64::new((n * cos - sin) * (n * cos + sin) - k * k * cos * cos, -2.0 * n * k * cos * cos);
         // d root/d ln s = −s²/root.
         let root_slope = -sin * sin / root;
         let perpendicular = [-2.0 * cos / (cos + root), -2.0 * root_slope / (cos + root)];

@@ -106,7 +106,8 @@ impl<'t> Row<'t> {
 
     /// An input that may be `null`.
     pub fn optional(&self, name: &str) -> Option<f64> {
-        let cell = self.cell(&format!("in.{name}")).unwrap_or_else(|| panic!("{}: no input {name}", self.id()));
+        let cell =
+            self.cell(&format!("in.{name}")).unwrap_or_else(|| panic!("{}: no input {name}", self.id()));
         (cell != "null").then(|| cell.parse().expect("number"))
     }
 
@@ -146,9 +147,11 @@ impl<'t> Row<'t> {
     /// The names of the outputs this line has.
     pub fn outputs(&self) -> impl Iterator<Item = &'static str> + use<'t> {
         let cells = self.cells;
-        self.table.names.iter().enumerate().filter_map(move |(index, name)| {
-            name.strip_prefix("out.").filter(|_| !cells[index].is_empty())
-        })
+        self.table
+            .names
+            .iter()
+            .enumerate()
+            .filter_map(move |(index, name)| name.strip_prefix("out.").filter(|_| !cells[index].is_empty()))
     }
 
     /// The columns whose names are JSON Pointers, with their JSON.
