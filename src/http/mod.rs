@@ -5,6 +5,7 @@ mod body;
 mod compute;
 mod encode;
 mod input;
+mod link;
 mod negotiate;
 mod openapi;
 mod problem;

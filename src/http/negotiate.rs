@@ -41,6 +41,17 @@ impl<S: Sync> FromRequestParts<S> for JsonOnly {
     }
 }
 
+/// What a table is answered as.
+pub(crate) struct JsonOrCsv(pub(crate) Format);
+
+impl<S: Sync> FromRequestParts<S> for JsonOrCsv {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        negotiate(&parts.headers, &[Format::Json, Format::Csv]).map(Self)
+    }
+}
+
 /// The best of `offered` (in order of preference among equals) for this `Accept`.
 pub(crate) fn negotiate(headers: &HeaderMap, offered: &[Format]) -> Result<Format, Problem> {
     let ranges: Vec<Range> = headers

@@ -165,6 +165,12 @@ impl Problem {
         Self::new(Kind::Internal, "The request was not answered. The cause is in the service's log.")
     }
 
+    /// 500 for an answer that could not be written down; memory is the only way to fail.
+    pub(crate) fn unwritten(error: &dyn std::error::Error) -> Self {
+        tracing::error!(%error, "an answer could not be written");
+        Self::internal()
+    }
+
     /// The response for a request to `path`, with `headers` that were already set (`Allow`).
     pub(crate) fn render(&self, path: &str) -> Response {
         let (slug, status, title) = self.kind.parts();

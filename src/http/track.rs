@@ -97,6 +97,7 @@ pub(super) fn not_found() -> Problem {
 }
 
 /// A panic in a handler is a defect. It costs its own request and no other.
+#[expect(clippy::needless_pass_by_value, reason = "the layer hands it over so")]
 pub(super) fn on_panic(panic: Box<dyn Any + Send>) -> Response {
     let message = panic
         .downcast_ref::<&str>()

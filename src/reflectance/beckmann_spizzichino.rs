@@ -46,15 +46,9 @@ impl RelativeRoughness {
     ///
     /// `over_cosines` takes the place of 1/cos θ_r: G/cos θ_r for a shadowed radiance, and divided by
     /// cos θ_i for a BRDF. Infinite where it is.
-    pub fn lobe(
-        &self,
-        geometry: &Geometry,
-        over_cosines: f64,
-        method: Method,
-        tolerance: f64,
-    ) -> (Estimate, Method) {
+    pub fn lobe(&self, geometry: &Geometry, over_cosines: f64, method: Method) -> (Estimate, Method) {
         let (g, x) = (self.g(geometry), self.x(geometry));
-        let series = lobe_series::evaluate(method, g, x, tolerance);
+        let series = lobe_series::evaluate(method, g, x);
         (self.lobe_of(geometry, over_cosines, &series), series.method)
     }
 
@@ -64,16 +58,16 @@ impl RelativeRoughness {
         let length = Scaled::new(geometry.length());
         let facet_factor = length.squared() / Scaled::new(geometry.cos_sum);
         let patch = Scaled::new(self.correlation_length) * facet_factor;
-        let value = patch.squared() * (0.25 * PI) * series.value * over_cosines;
+        let factor = patch.squared() * (0.25 * PI) * over_cosines;
+        let value = factor * series.estimate.value;
         if value.is_nan() {
             return Estimate::UNDEFINED;
         }
         if !value.is_finite() {
             return Estimate::INFINITE;
         }
-        let log_error = series.relative_error
-            + EPSILON * (PREFACTOR_UNITS + G_UNITS * series.condition_g + X_UNITS * series.condition_x);
-        Estimate::within(value, log_error)
+        let rounding = PREFACTOR_UNITS + G_UNITS * series.condition_g + X_UNITS * series.condition_x;
+        series.estimate.scaled_by(factor).widened(EPSILON * rounding)
     }
 
     /// The specular spike of (47) over the irradiance, per steradian; `cosines` is the cos² θ_i of
@@ -121,7 +115,8 @@ impl Patch {
             along.error * across.sinc.abs() + across.error * along.sinc.abs() + along.error * across.error;
         // Far from the specular direction ρ is small and its square may leave f64's range.
         let (rho, error) = (Scaled::new(rho.abs()), Scaled::new(error));
-        Estimate { value: rho.squared(), error: rho * error * 2.0 + error.squared() }
+        let least = if error.to_f64() < rho.to_f64() { rho.distance(error).squared() } else { Scaled::ZERO };
+        Estimate { value: rho.squared(), error: rho * error * 2.0 + error.squared(), least }
     }
 }
 

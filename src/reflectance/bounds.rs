@@ -78,6 +78,8 @@ pub const IRRADIANCE: Bounds = Bounds::new("irradiance", "W m^-2", 1e-100, 1e100
 pub const SPECULAR_SCALE: Bounds = Bounds::new("specular scale", "sr^-1", 0.0, 1e100);
 /// Strengths C and K of (74) and (80).
 pub const STRENGTH: Bounds = Bounds::new("component strength", "", 0.0, 1e100);
+/// σ_s of the Gaussian that stands for the spike in (74) and (80).
+pub const SPIKE_WIDTH: Bounds = Bounds::new("width of the spike", "degrees", 1e-12, 1e3);
 /// Relative tolerance of an answer.
 pub const TOLERANCE: Bounds = Bounds::new("relative tolerance", "", 1e-15, 0.1);
 /// Beckmann's α = tan α₀ = 2σ_h/T, or the ratio σ_h/T.

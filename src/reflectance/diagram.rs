@@ -156,6 +156,11 @@ impl Sweep {
         Self { axis, positions: division.positions(from, to, points), at, phi_r }
     }
 
+    /// Rows of the table: points times fixed angles.
+    pub fn rows(&self) -> usize {
+        self.positions.len() * self.at.len()
+    }
+
     /// The directions of one curve.
     fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
         let (mut theta_i, mut theta_r) =
@@ -220,7 +225,7 @@ impl Division {
         let at = |index: usize| match self {
             Self::Step(step) => (from + index as f64 * step).min(to),
             Self::Points(_) if index + 1 == points => to,
-            Self::Points(_) => from + (to - from) * (index as f64 / (points - 1) as f64),
+            Self::Points(_) => from + (to - from) * index as f64 / (points - 1) as f64,
         };
         (0..points).map(at).collect()
     }

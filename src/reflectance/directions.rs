@@ -119,9 +119,15 @@ impl Directions {
         self.count
     }
 
+    /// θ_i, θ_r and φ_r of direction `index` < N.
+    pub fn angles(&self, index: usize) -> (SourceZenith, ViewerZenith, Azimuth) {
+        (self.theta_i.at(index), self.theta_r.at(index), self.phi_r.at(index))
+    }
+
     /// The geometry of direction `index` < N.
     pub fn geometry(&self, index: usize) -> Geometry {
-        Geometry::new(self.theta_i.at(index), self.theta_r.at(index), self.phi_r.at(index))
+        let (theta_i, theta_r, phi_r) = self.angles(index);
+        Geometry::new(theta_i, theta_r, phi_r)
     }
 
     /// All geometries in order.

@@ -2,28 +2,39 @@
 
 use super::numeric::{EPSILON, scaled::Scaled};
 
-/// |exact − value| ≤ error.
+/// |exact − value| ≤ error and exact ≥ least.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The value; infinite or NaN where the model has no finite one.
     pub value: Scaled,
     /// Bound of its absolute error.
     pub error: Scaled,
+    /// Lower bound of the exact value, 0 or positive: what the error is relative to. It is not
+    /// value − error where a named method is far off a value that is known.
+    pub least: Scaled,
 }
 
 impl Estimate {
     /// Exactly zero.
-    pub const ZERO: Self = Self { value: Scaled::ZERO, error: Scaled::ZERO };
+    pub const ZERO: Self = Self { value: Scaled::ZERO, error: Scaled::ZERO, least: Scaled::ZERO };
     /// A limit that diverges.
-    pub const INFINITE: Self = Self { value: Scaled::INFINITY, error: Scaled::INFINITY };
+    pub const INFINITE: Self = Self { value: Scaled::INFINITY, error: Scaled::INFINITY, least: Scaled::ZERO };
     /// No value.
-    pub const UNDEFINED: Self = Self { value: Scaled::NAN, error: Scaled::NAN };
+    pub const UNDEFINED: Self = Self { value: Scaled::NAN, error: Scaled::NAN, least: Scaled::NAN };
 
     /// A value known within a factor e^{±`log_error`}; for a small one that is the relative error.
     pub fn within(value: Scaled, log_error: f64) -> Self {
-        let relative =
-            if log_error < 1.0 { Scaled::new(libm::expm1(log_error)) } else { Scaled::exp(log_error) };
-        Self { value, error: value * relative }
+        Self { value, error: value.spread(log_error), least: value * Scaled::exp(-log_error) }
+    }
+
+    /// Allows for what changes the exact value by a factor e^{±`log_error`} at most.
+    #[must_use]
+    pub fn widened(self, log_error: f64) -> Self {
+        Self {
+            value: self.value,
+            error: self.error + (self.value + self.error).spread(log_error),
+            least: self.least * Scaled::exp(-log_error),
+        }
     }
 
     /// `self` times a factor that has an error of its own.
@@ -35,13 +46,14 @@ impl Estimate {
         Self {
             value: self.value * factor.value,
             error: self.value * factor.error + self.error * factor.value + self.error * factor.error,
+            least: self.least * factor.least,
         }
     }
 
     /// `self` times an exact factor.
     #[must_use]
     pub fn scaled_by(self, factor: Scaled) -> Self {
-        Self { value: self.value * factor, error: self.error * factor }
+        Self { value: self.value * factor, error: self.error * factor, least: self.least * factor }
     }
 
     /// The sum; the bounds add, and the rounding of the sum.
@@ -51,11 +63,15 @@ impl Estimate {
             return self;
         }
         let value = self.value + other.value;
-        Self { value, error: self.error + other.error + value * EPSILON }
+        Self {
+            value,
+            error: self.error + other.error + value * EPSILON,
+            least: self.least + other.least,
+        }
     }
 
-    /// error/value: 0 for an exact zero, infinite for a zero that is not exact.
+    /// error/least: 0 for an exact value, infinite where nothing is known to be there.
     pub fn relative_error(self) -> f64 {
-        if self.error.is_zero() { 0.0 } else { (self.error / self.value).to_f64() }
+        if self.error.is_zero() { 0.0 } else { (self.error / self.least).to_f64() }
     }
 }

@@ -1,13 +1,12 @@
 //! From a scene and directions to answers: one pass, columns of f64, no allocation per direction.
 
+use super::columns::Columns;
 use super::directions::Directions;
-use super::estimate::Estimate;
-use super::findings::{Diagnostic, DiagnosticCode, LISTED_INDICES, Omitted, Warning, WarningCode};
+use super::findings::{Diagnostic, LISTED_INDICES, Omitted, Warning, WarningCode};
 use super::kernel::{Kernel, Reflection};
-use super::numeric::EPSILON;
-use super::numeric::scaled::Scaled;
 use super::scene::{Component, Components, Model, Scene};
 
+pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
 
 /// What to add to the answer.
@@ -17,17 +16,6 @@ pub struct Output {
     pub log10: bool,
     /// Method and g of each direction.
     pub per_direction: bool,
-}
-
-/// One component's values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ComponentColumn {
-    /// Which.
-    pub component: Component,
-    /// One a direction. Infinities and NaNs are each explained by a diagnostic.
-    pub values: Vec<f64>,
-    /// Their decimal logarithms, if asked for.
-    pub log10: Option<Vec<f64>>,
 }
 
 /// The answer to N directions.
@@ -72,7 +60,9 @@ pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, outp
 /// The answer while it is being made.
 struct Answer<'a> {
     scene: &'a Scene,
-    evaluation: Evaluation,
+    columns: Columns,
+    method: Option<Vec<EvaluatedBy>>,
+    roughness_g: Option<Vec<f64>>,
     counts: [usize; EvaluatedBy::ALL.len()],
     underflow: Concern,
     tolerance: Concern,
@@ -105,16 +95,6 @@ impl Concern {
 
 impl<'a> Answer<'a> {
     fn new(scene: &'a Scene, count: usize, output: Output) -> Self {
-        let column = || Vec::with_capacity(count);
-        let components = scene
-            .evaluated()
-            .iter()
-            .map(|&component| ComponentColumn {
-                component,
-                values: column(),
-                log10: output.log10.then(column),
-            })
-            .collect();
         let p = scene.parameters();
         let has_heights = p.surface.rms_height.is_some() && p.illumination.wavelength.is_some();
         let lacks_spike = p.components == Components::Auto
@@ -122,18 +102,9 @@ impl<'a> Answer<'a> {
             && !scene.evaluated().contains(&Component::SpecularSpike);
         Self {
             scene,
-            evaluation: Evaluation {
-                total: column(),
-                log10_total: output.log10.then(column),
-                components,
-                relative_error_bound: column(),
-                methods: Vec::new(),
-                method: output.per_direction.then(|| Vec::with_capacity(count)),
-                roughness_g: (output.per_direction && has_heights).then(column),
-                omitted: Vec::new(),
-                warnings: Vec::new(),
-                diagnostics: Vec::new(),
-            },
+            columns: Columns::new(scene.evaluated(), count, output.log10),
+            method: output.per_direction.then(|| Vec::with_capacity(count)),
+            roughness_g: (output.per_direction && has_heights).then(|| Vec::with_capacity(count)),
             counts: [0; EvaluatedBy::ALL.len()],
             underflow: Concern::default(),
             tolerance: Concern::default(),
@@ -150,44 +121,21 @@ impl<'a> Answer<'a> {
     fn push_g(&mut self, g: Option<f64>) {
         let Some(g) = g else { return };
         self.least_g = Some(self.least_g.map_or(g, |least| least.min(g)));
-        if let Some(column) = &mut self.evaluation.roughness_g {
+        if let Some(column) = &mut self.roughness_g {
             column.push(g);
         }
     }
 
     fn push(&mut self, index: usize, reflection: &Reflection) {
-        let first_diagnostic = self.evaluation.diagnostics.len();
-        let mut total = Estimate::ZERO;
-        for column in &mut self.evaluation.components {
-            // Every evaluated component has a value: the scene was checked for what it needs.
-            let Some(estimate) = reflection.components[column.component.index()] else { continue };
-            total = total.plus(estimate);
-            let diagnostics = &mut self.evaluation.diagnostics;
-            column.values.push(finite(estimate.value, index, first_diagnostic, diagnostics));
-            if let Some(log10) = &mut column.log10 {
-                log10.push(logarithm(estimate.value, index, first_diagnostic, diagnostics));
-            }
-        }
-        let diagnostics = &mut self.evaluation.diagnostics;
-        let value = finite(total.value, index, first_diagnostic, diagnostics);
-        if let Some(log10) = &mut self.evaluation.log10_total {
-            log10.push(logarithm(total.value, index, first_diagnostic, diagnostics));
-        }
-        // Sums of three components and the rounding of the total itself.
-        let model_bound = total.relative_error() + if total.error.is_zero() { 0.0 } else { 4.0 * EPSILON };
-        let bound = model_bound + rounding_below_normal(total.value, value);
-        if model_bound > self.scene.parameters().accuracy.relative_tolerance.get() && total.value.is_finite()
+        let total = self.columns.push(index, &reflection.components);
+        if total.relative_error > self.scene.parameters().accuracy.relative_tolerance.get()
+            && total.exact.is_finite()
         {
-            self.tolerance.add(index, model_bound);
+            self.tolerance.add(index, total.relative_error);
         }
-        if value.abs() < f64::MIN_POSITIVE && !total.value.is_zero() {
+        if total.value.abs() < f64::MIN_POSITIVE && !total.exact.is_zero() {
             self.underflow.add(index, 0.0);
         }
-        if !bound.is_finite() && total.value.is_finite() {
-            note(index, DiagnosticCode::NoErrorBound, first_diagnostic, diagnostics);
-        }
-        self.evaluation.total.push(value);
-        self.evaluation.relative_error_bound.push(bound);
         self.count(reflection.evaluated_by);
     }
 
@@ -195,24 +143,24 @@ impl<'a> Answer<'a> {
         for (candidate, count) in EvaluatedBy::ALL.iter().zip(&mut self.counts) {
             *count += usize::from(*candidate == by);
         }
-        if let Some(method) = &mut self.evaluation.method {
+        if let Some(method) = &mut self.method {
             method.push(by);
         }
     }
 
-    fn finish(mut self) -> Evaluation {
-        self.evaluation.methods =
-            EvaluatedBy::ALL.into_iter().zip(self.counts).filter(|(_, count)| *count > 0).collect();
+    fn finish(self) -> Evaluation {
+        let (mut omitted, mut warnings) = (Vec::new(), Vec::new());
+        let methods = EvaluatedBy::ALL.into_iter().zip(self.counts).filter(|(_, count)| *count > 0).collect();
         let p = self.scene.parameters();
         if self.lacks_spike {
-            self.evaluation.omitted.push(Omitted {
+            omitted.push(Omitted {
                 component: Component::SpecularSpike,
                 bound: None,
                 reason: "the specular spike depends on the sensor's footprint and none was given",
             });
             let share = libm::exp(-self.least_g.unwrap_or(0.0));
             if share > p.accuracy.relative_tolerance.get() {
-                self.evaluation.warnings.push(Warning {
+                warnings.push(Warning {
                     code: WarningCode::SpikeWithoutSensor,
                     value: Some(share),
                     indices: Vec::new(),
@@ -221,7 +169,7 @@ impl<'a> Answer<'a> {
             }
         }
         if p.model == Model::BeckmannSpizzichino && p.surface.diffuse_albedo.get() > 0.0 {
-            self.evaluation.warnings.push(Warning {
+            warnings.push(Warning {
                 code: WarningCode::ParameterNotUsed,
                 value: Some(p.surface.diffuse_albedo.get()),
                 indices: Vec::new(),
@@ -229,54 +177,24 @@ impl<'a> Answer<'a> {
             });
         }
         let largest = self.tolerance.largest;
-        self.evaluation.warnings.extend(
+        warnings.extend(
             self.tolerance
                 .warning(WarningCode::ToleranceNotMet, largest.is_finite().then_some(largest))
                 .into_iter()
                 .chain(self.underflow.warning(WarningCode::Underflow, None)),
         );
-        self.evaluation
-    }
-}
-
-/// What rounding to a subnormal or to 0 adds to the relative error; 1 where all is lost.
-fn rounding_below_normal(exact: Scaled, value: f64) -> f64 {
-    if value.abs() >= f64::MIN_POSITIVE || exact.is_zero() || !exact.is_finite() {
-        0.0
-    } else if value == 0.0 {
-        1.0
-    } else {
-        (Scaled::new(2f64.powi(-1074)) * 0.5 / exact).to_f64()
-    }
-}
-
-/// The f64 of a value, with a diagnostic where it has none.
-fn finite(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
-    let number = value.to_f64();
-    if !number.is_finite() {
-        let code = if value.is_nan() {
-            DiagnosticCode::UndefinedLimit
-        } else if value.is_finite() {
-            DiagnosticCode::Overflow
-        } else {
-            DiagnosticCode::GrazingDivergence
-        };
-        note(index, code, first, diagnostics);
-    }
-    number
-}
-
-/// The logarithm of a value, with a diagnostic where it has none.
-fn logarithm(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
-    if value.is_zero() {
-        note(index, DiagnosticCode::LogarithmOfZero, first, diagnostics);
-    }
-    value.log10()
-}
-
-/// Adds a diagnostic of this direction unless it is there already.
-fn note(index: usize, code: DiagnosticCode, first: usize, diagnostics: &mut Vec<Diagnostic>) {
-    if !diagnostics[first..].iter().any(|d| d.code == code) {
-        diagnostics.push(Diagnostic { index, code });
+        let Columns { total, log10_total, components, relative_error_bound, diagnostics } = self.columns;
+        Evaluation {
+            total,
+            log10_total,
+            components,
+            relative_error_bound,
+            methods,
+            method: self.method,
+            roughness_g: self.roughness_g,
+            omitted,
+            warnings,
+            diagnostics,
+        }
     }
 }

@@ -163,7 +163,7 @@ impl LinearModel {
 }
 
 fn exactly(value: f64) -> Estimate {
-    Estimate { value: Scaled::new(value), error: Scaled::ZERO }
+    Estimate { value: Scaled::new(value), error: Scaled::ZERO, least: Scaled::new(value) }
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 //! evaluated without allocating.
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
-use super::degrees::SinCos;
 use super::estimate::Estimate;
 use super::fresnel::{Energy, Medium, Polarization};
 use super::geometry::Geometry;
@@ -10,19 +9,24 @@ use super::lambertian;
 use super::numeric::EPSILON;
 use super::numeric::lobe_series::Method;
 use super::numeric::scaled::Scaled;
-use super::radiometry::Camera;
+use super::quantity::{SpecularScale, Wavelength};
 use super::scene::{Component, Model, Scene, Sensor};
 use super::shadowing::Shadowing;
 use super::torrance_sparrow::{self, FacetLobe};
 use super::unified;
 
-/// Radiance `L_r` (2) or BRDF `f_r = L_r/I_s` (3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Radiance `L_r` (2), BRDF `f_r = L_r/I_s` (3), or what an image of the surface receives, (51).
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
     /// W m⁻² sr⁻¹ (times whatever the irradiance carries).
     Radiance,
     /// sr⁻¹.
     Brdf,
+    /// W m⁻² (times whatever the irradiance carries).
+    ImageIrradiance {
+        /// I_im/L_r of (51), steradian: [`super::radiometry::Camera::image_irradiance_factor`].
+        factor: f64,
+    },
 }
 
 impl Quantity {
@@ -31,6 +35,7 @@ impl Quantity {
         match self {
             Self::Radiance => "radiance",
             Self::Brdf => "brdf",
+            Self::ImageIrradiance { .. } => "image_irradiance",
         }
     }
 
@@ -39,6 +44,7 @@ impl Quantity {
         match self {
             Self::Radiance => "W m^-2 sr^-1",
             Self::Brdf => "sr^-1",
+            Self::ImageIrradiance { .. } => "W m^-2",
         }
     }
 }
@@ -92,7 +98,6 @@ pub(super) struct Kernel<'a> {
     view: Option<View>,
     facets: Option<FacetLobe>,
     method: Method,
-    tolerance: f64,
 }
 
 /// The sensor, its lengths over the wavelength.
@@ -106,7 +111,7 @@ enum View {
 impl<'a> Kernel<'a> {
     pub(super) fn new(scene: &'a Scene, quantity: Quantity) -> Self {
         let p = scene.parameters();
-        let wavelength = p.illumination.wavelength.map(|w| w.get());
+        let wavelength = p.illumination.wavelength.map(Wavelength::get);
         let roughness = p.surface.rms_height.zip(wavelength).map(|(height, wavelength)| RelativeRoughness {
             height: height.get() / wavelength,
             // Only the height lobe reads it, and a scene with one has a correlation length.
@@ -127,14 +132,12 @@ impl<'a> Kernel<'a> {
                 specular_scale: p
                     .surface
                     .specular_scale
-                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), |scale| scale.get()),
+                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), SpecularScale::get),
                 medium: p.surface.medium,
                 polarization: p.illumination.polarization,
                 shadowing,
             }),
             method: p.accuracy.method,
-            // Half for the series, half for all else.
-            tolerance: 0.5 * p.accuracy.relative_tolerance.get(),
         }
     }
 
@@ -154,7 +157,7 @@ impl<'a> Kernel<'a> {
                 Component::SpecularLobe if self.scene.parameters().model == Model::BeckmannSpizzichino => {
                     self.roughness.map(|roughness| {
                         let over = self.shadowing_over_cosines(geometry);
-                        let (lobe, method) = roughness.lobe(geometry, over, self.method, self.tolerance);
+                        let (lobe, method) = roughness.lobe(geometry, over, self.method);
                         evaluated_by = EvaluatedBy::Lobe(method);
                         self.with_reflectance(lobe, reflectance)
                     })
@@ -162,7 +165,14 @@ impl<'a> Kernel<'a> {
                 Component::SpecularLobe => self.facet_lobe(geometry, reflectance),
                 Component::SpecularSpike => self.spike(geometry, reflectance),
             };
-            components[component.index()] = value;
+            components[component.index()] = match self.quantity {
+                Quantity::ImageIrradiance { factor } => {
+                    // Nine roundings at most make the factor of (51).
+                    let factor = Estimate::within(Scaled::new(factor), 12.0 * EPSILON);
+                    value.map(|radiance| radiance.times(factor))
+                }
+                Quantity::Radiance | Quantity::Brdf => value,
+            };
         }
         Reflection { components, evaluated_by }
     }
@@ -171,7 +181,7 @@ impl<'a> Kernel<'a> {
     fn diffuse_lobe(&self, geometry: &Geometry) -> Estimate {
         let surface = &self.scene.parameters().surface;
         let value = match self.quantity {
-            Quantity::Radiance => {
+            Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
                 let irradiance = self.scene.parameters().illumination.irradiance;
                 lambertian::radiance(surface.diffuse_albedo, irradiance, geometry.cos_i)
             }
@@ -198,7 +208,7 @@ impl<'a> Kernel<'a> {
     fn spike(&self, geometry: &Geometry, reflectance: Energy) -> Option<Estimate> {
         let patch = self.view?.patch(geometry);
         let power = match self.quantity {
-            Quantity::Radiance => geometry.cos_i * geometry.cos_i,
+            Quantity::Radiance | Quantity::ImageIrradiance { .. } => geometry.cos_i * geometry.cos_i,
             Quantity::Brdf => geometry.cos_i,
         };
         Some(self.with_reflectance(self.roughness?.spike(geometry, power, &patch), reflectance))
@@ -208,7 +218,9 @@ impl<'a> Kernel<'a> {
     fn with_reflectance(&self, lobe: Estimate, reflectance: Energy) -> Estimate {
         let reflected = lobe.times(reflectance.into());
         match self.quantity {
-            Quantity::Radiance => reflected.scaled_by(Scaled::new(self.irradiance)),
+            Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
+                reflected.scaled_by(Scaled::new(self.irradiance))
+            }
             Quantity::Brdf => reflected,
         }
     }
@@ -216,7 +228,9 @@ impl<'a> Kernel<'a> {
     /// G/cos θ_r for a radiance, G/(cos θ_i cos θ_r) for a BRDF, in forms that keep their limits.
     fn shadowing_over_cosines(&self, geometry: &Geometry) -> f64 {
         match self.quantity {
-            Quantity::Radiance => self.shadowing.factor_over_cos_r(geometry),
+            Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
+                self.shadowing.factor_over_cos_r(geometry)
+            }
             Quantity::Brdf => self.shadowing.factor_over_cosines(geometry),
         }
     }
@@ -230,14 +244,8 @@ impl View {
                 half_x: half_x.get() / wavelength,
                 half_y: half_y.get() / wavelength,
             }),
-            Sensor::Camera { pixel_area, distance, focal_length, aperture, off_axis } => {
-                let camera = Camera {
-                    pixel_area: pixel_area.get(),
-                    distance: distance.get(),
-                    focal_length: focal_length.get(),
-                    aperture: aperture.get(),
-                    cos_off_axis: SinCos::of_degrees(off_axis.get()).cos,
-                };
+            Sensor::Camera(camera) => {
+                let camera = camera.optics();
                 Self::Camera((camera.footprint() / Scaled::new(wavelength).squared()).to_f64())
             }
         }

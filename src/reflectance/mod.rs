@@ -5,6 +5,7 @@
 
 pub mod beckmann_spizzichino;
 pub mod bounds;
+pub mod columns;
 pub mod degrees;
 pub mod diagram;
 pub mod directions;
@@ -19,6 +20,7 @@ pub mod geometry;
 pub mod image_irradiance;
 mod kernel;
 pub mod lambertian;
+pub mod linear_image;
 pub mod numeric;
 pub mod quantity;
 pub mod radiometry;

@@ -105,6 +105,8 @@ quantities! {
     SpecularScale in SPECULAR_SCALE;
     /// C or K of (74), (80).
     Strength in STRENGTH;
+    /// σ_s of section 5.1, degrees: the width of exp(−((θ_i − θ_r)² + φ_r²)/2σ_s²).
+    SpikeWidth in SPIKE_WIDTH;
     /// Relative tolerance.
     Tolerance in TOLERANCE;
 }

@@ -1,12 +1,14 @@
 //! What a caller describes: surface, light, sensor, model. A [`Scene`] is checked as a whole when
 //! it is made; evaluating one cannot fail.
 
+use super::degrees::SinCos;
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
 use super::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, RmsHeight, SpecularScale,
     Tolerance, Wavelength,
 };
+use super::radiometry::Camera;
 use super::roughness;
 use super::shadowing::Shadowing;
 
@@ -131,18 +133,35 @@ pub enum Sensor {
         half_y: Length,
     },
     /// A camera: footprint by (43), A = footprint/cos θ_r, X = Y = √A/2.
-    Camera {
-        /// dA_im
-        pixel_area: Area,
-        /// z
-        distance: Length,
-        /// f
-        focal_length: Length,
-        /// d, the diameter of the lens
-        aperture: Length,
-        /// γ
-        off_axis: OffAxis,
-    },
+    Camera(CameraSensor),
+}
+
+/// The camera of figure 10.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraSensor {
+    /// dA_im
+    pub pixel_area: Area,
+    /// z
+    pub distance: Length,
+    /// f
+    pub focal_length: Length,
+    /// d, the diameter of the lens
+    pub aperture: Length,
+    /// γ
+    pub off_axis: OffAxis,
+}
+
+impl CameraSensor {
+    /// Its radiometry.
+    pub fn optics(&self) -> Camera {
+        Camera {
+            pixel_area: self.pixel_area.get(),
+            distance: self.distance.get(),
+            focal_length: self.focal_length.get(),
+            aperture: self.aperture.get(),
+            cos_off_axis: SinCos::of_degrees(self.off_axis.get()).cos,
+        }
+    }
 }
 
 /// Which components to answer.

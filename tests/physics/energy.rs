@@ -43,7 +43,7 @@ fn reflected_share(height: f64, correlation_length: f64, degrees: f64) -> Integr
     let width = ((height + 0.1) / correlation_length).min(0.3);
     // L cos θ_r/(E cos θ_i): the lobe with 1/cos θ_i for 1/cos θ_r.
     let lobe = over_hemisphere(theta_i, width, 1e-7, |geometry| {
-        roughness.lobe(geometry, 1.0 / cos_i, Method::Series, 0.0).0.value.to_f64()
+        roughness.lobe(geometry, 1.0 / cos_i, Method::Series).0.value.to_f64()
     });
     let phase = 4.0 * PI * height * cos_i;
     Integral { value: lobe.value + libm::exp(-phase * phase), error: lobe.error }

@@ -45,8 +45,7 @@ fn the_lobes_are_reciprocal() {
             let (over_there, over_back) =
                 (shadowing.factor_over_cosines(&there), shadowing.factor_over_cosines(&back));
             for roughness in ROUGHNESS {
-                let lobe =
-                    |geometry: &Geometry, over: f64| roughness.lobe(geometry, over, Method::Series, 0.0).0;
+                let lobe = |geometry: &Geometry, over: f64| roughness.lobe(geometry, over, Method::Series).0;
                 let (a, b) = (lobe(&there, over_there), lobe(&back, over_back));
                 // Each keeps its own bound.
                 let difference = (a.value.to_f64() - b.value.to_f64()).abs();
@@ -81,7 +80,7 @@ fn the_rough_limit_is_the_microfacet_form_with_beckmanns_density() {
         for (height, correlation_length) in [(10.0, 100.0), (1e6, 3e6)] {
             let roughness = RelativeRoughness { height, correlation_length };
             let ratio = height / correlation_length;
-            let rough = roughness.lobe(&geometry, 1.0 / geometry.cos_r, Method::Rough, 0.0).0.value;
+            let rough = roughness.lobe(&geometry, 1.0 / geometry.cos_r, Method::Rough).0.value;
             let alpha = geometry.alpha();
             let density = facet_density(alpha, ratio);
             // The exponent u is known to 48 ε on one side and to 12 ε and the condition of tan α, α/(sin α cos α), on the

@@ -1,19 +1,11 @@
 //! What `/v1/radiance` and `/v1/brdf` answer.
 
 use crate::http::encode::numbers::Numbers;
-use crate::reflectance::evaluate::{Evaluation, Quantity};
-use crate::reflectance::scene::Component;
-use serde::{Serialize, Serializer};
+use crate::reflectance::evaluate::{EvaluatedBy, Evaluation, Quantity};
+use crate::reflectance::findings::{Diagnostic, Omitted, Warning};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
-
-/// Name and unit of what is answered.
-pub(crate) const fn quantity_and_unit(quantity: Quantity) -> (&'static str, &'static str) {
-    match quantity {
-        Quantity::Radiance => ("radiance", "W m^-2 sr^-1"),
-        Quantity::Brdf => ("brdf", "sr^-1"),
-    }
-}
 
 /// Values in each direction, in the order of the request's arrays. A value that is infinite or undefined is null,
 /// and `diagnostics` says why. A value below the smallest 64-bit float is 0.
@@ -81,17 +73,12 @@ pub(crate) struct Answer {
 #[schema(as = Omitted)]
 pub(crate) struct OmittedAnswer {
     /// Which.
-    #[serde(serialize_with = "component_name")]
-    #[schema(value_type = String, example = "specular_spike")]
-    component: Component,
+    #[schema(example = "specular_spike")]
+    component: &'static str,
     /// What it could add to `total` at most, relative; null where it could not be computed.
     bound: Option<f64>,
     /// Why it was left out.
     reason: &'static str,
-}
-
-fn component_name<S: Serializer>(component: &Component, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(component.name())
 }
 
 /// Something to know about the answer.
@@ -124,17 +111,40 @@ pub(crate) struct DiagnosticAnswer {
     detail: &'static str,
 }
 
+impl From<Omitted> for OmittedAnswer {
+    fn from(omitted: Omitted) -> Self {
+        Self { component: omitted.component.name(), bound: omitted.bound, reason: omitted.reason }
+    }
+}
+
+impl From<Warning> for WarningAnswer {
+    fn from(warning: Warning) -> Self {
+        Self {
+            code: warning.code.name(),
+            detail: warning.code.detail(),
+            value: warning.value,
+            indices: warning.indices,
+            count: warning.count,
+        }
+    }
+}
+
+impl From<Diagnostic> for DiagnosticAnswer {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self { index: diagnostic.index, code: diagnostic.code.name(), detail: diagnostic.code.detail() }
+    }
+}
+
 impl Answer {
     pub(crate) fn new(quantity: Quantity, evaluation: Evaluation) -> Self {
-        let (quantity, unit) = quantity_and_unit(quantity);
         let mut columns = [const { (None, None) }; 3];
         for column in evaluation.components {
             columns[column.component as usize] = (Some(Numbers(column.values)), column.log10.map(Numbers));
         }
         let [diffuse, lobe, spike] = columns;
         Self {
-            quantity,
-            unit,
+            quantity: quantity.name(),
+            unit: quantity.unit(),
             total: Numbers(evaluation.total),
             diffuse_lobe: diffuse.0,
             specular_lobe: lobe.0,
@@ -145,29 +155,11 @@ impl Answer {
             log10_specular_spike: spike.1,
             relative_error_bound: Numbers(evaluation.relative_error_bound),
             methods: evaluation.methods.into_iter().map(|(method, count)| (method.name(), count)).collect(),
-            method: evaluation.method.map(|methods| methods.into_iter().map(|m| m.name()).collect()),
+            method: evaluation.method.map(|methods| methods.into_iter().map(EvaluatedBy::name).collect()),
             roughness_g: evaluation.roughness_g.map(Numbers),
-            omitted: evaluation
-                .omitted
-                .into_iter()
-                .map(|o| OmittedAnswer { component: o.component, bound: o.bound, reason: o.reason })
-                .collect(),
-            warnings: evaluation
-                .warnings
-                .into_iter()
-                .map(|w| WarningAnswer {
-                    code: w.code.name(),
-                    detail: w.code.detail(),
-                    value: w.value,
-                    indices: w.indices,
-                    count: w.count,
-                })
-                .collect(),
-            diagnostics: evaluation
-                .diagnostics
-                .iter()
-                .map(|d| DiagnosticAnswer { index: d.index, code: d.code.name(), detail: d.code.detail() })
-                .collect(),
+            omitted: evaluation.omitted.into_iter().map(OmittedAnswer::from).collect(),
+            warnings: evaluation.warnings.into_iter().map(WarningAnswer::from).collect(),
+            diagnostics: evaluation.diagnostics.into_iter().map(DiagnosticAnswer::from).collect(),
         }
     }
 

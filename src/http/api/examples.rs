@@ -46,6 +46,26 @@ const PAPER: &str = r#"{"model": "beckmann_spizzichino",
 const LAMBERTIAN: &str = r#"{"model": "lambertian", "surface": {"diffuse_albedo": 0.8},
  "illumination": {"irradiance": 3.141592653589793}, "geometry": {"theta_i_deg": 60, "theta_r_deg": 20}}"#;
 
+const DIAGRAM: &str = r#"{"quantity": "brdf", "model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.5, "correlation_length_um": 5},
+ "illumination": {"wavelength_um": 0.5},
+ "sweep": "theta_r_deg", "from_deg": -80, "to_deg": 80, "step_deg": 5, "at_deg": [10, 30, 45, 60]}"#;
+
+const FIXED_VIEW_DIAGRAM: &str = r#"{"model": "torrance_sparrow",
+ "surface": {"facet_slope_deg": 8, "medium": {"n": 1.5, "k": 0}},
+ "illumination": {"irradiance": 1},
+ "sweep": "theta_i_deg", "from_deg": -85, "to_deg": 85, "points": 35, "at_deg": [0, 45],
+ "output": {"log10": true}}"#;
+
+const FIXED_SOURCE: &str = r#"{"model": "fixed_source", "C_dl": 0.2, "C_sl": 0.5, "C_ss": 4,
+ "facet_slope_deg": 6, "spike": {"shape": "gaussian", "width_deg": 0.5},
+ "geometry": {"theta_i_deg": 30, "theta_r_deg": [25, 29, 30, 31, 35]}}"#;
+
+const FIXED_VIEW: &str = r#"{"model": "fixed_view", "K_dl": 0.2, "K_sl": 0.5, "K_ss": 4,
+ "facet_slope_deg": 6,
+ "spike": {"shape": "sinc2", "patch_half_x_um": 50, "patch_half_y_um": 50, "wavelength_um": 0.5},
+ "geometry": {"theta_i_deg": [40, 45, 50], "theta_r_deg": 45}, "output": {"log10": true}}"#;
+
 /// Every example of a body.
 pub(crate) const BODIES: &[Example] = &[
     example(
@@ -76,6 +96,16 @@ pub(crate) const BODIES: &[Example] = &[
         FIRST,
     ),
     example("/v1/brdf", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+    example("/v1/diagrams", "fixed_source", "BRDF over the viewing angle for four sources", DIAGRAM),
+    example("/v1/diagrams", "fixed_view", "Radiance over the source angle for two views", FIXED_VIEW_DIAGRAM),
+    example("/v1/image-irradiance", "camera", "What a pixel receives from aluminium, (51)", CAMERA),
+    example("/v1/image-irradiance", "fixed_source", "The linear model (74) about its spike", FIXED_SOURCE),
+    example(
+        "/v1/image-irradiance",
+        "fixed_view",
+        "The linear model (80) with the spike of a patch",
+        FIXED_VIEW,
+    ),
 ];
 
 const fn example(

@@ -1,12 +1,18 @@
 //! One file a resource: wire types, handler and its `OpenAPI` note.
 
-mod answer;
+pub(super) mod answer;
+pub(super) mod diagrams;
 pub(super) mod documents;
 pub(super) mod examples;
+pub(super) mod figures;
 pub(super) mod health;
+pub(super) mod image_irradiance;
 pub(super) mod radiance;
 mod responses;
+pub(super) mod roughness;
 mod scene;
+mod spike;
+mod sweep;
 
 /// The body of the request that the program suggests when it starts.
 pub(super) const FIRST_REQUEST: &str = examples::FIRST;

@@ -44,10 +44,11 @@ object! {
     }
 }
 
-impl From<Option<OutputWire>> for Output {
-    fn from(wire: Option<OutputWire>) -> Self {
+impl OutputWire {
+    /// What was asked for, or the defaults.
+    pub(crate) fn chosen(wire: Option<Self>) -> Output {
         let (log10, per_direction) = wire.map_or((None, None), |wire| (wire.log10, wire.per_direction));
-        Self { log10: log10.unwrap_or(false), per_direction: per_direction.unwrap_or(false) }
+        Output { log10: log10.unwrap_or(false), per_direction: per_direction.unwrap_or(false) }
     }
 }
 
@@ -107,7 +108,7 @@ object! {
         geometry: CheckedDirections,
         /// What to add to the answer.
         output: Option<OutputWire>,
-        ..scene: CheckedScene
+        ..scene: CheckedScene,
     }
 }
 
@@ -156,9 +157,9 @@ async fn answer(
         request;
     let count = directions.count();
     compute::run(deadline, count, move || {
-        let evaluation = evaluate(&scene, &directions, quantity, output.into());
+        let evaluation = evaluate(&scene, &directions, quantity, OutputWire::chosen(output));
         let answer = Answer::new(quantity, evaluation);
         json::response(&answer, answer.size_hint())
     })
-    .await
+    .await?
 }

@@ -12,7 +12,7 @@ use crate::reflectance::quantity::{
     SpecularScale, Tolerance, Wavelength,
 };
 use crate::reflectance::scene::{
-    self, Accuracy, Components, Model, Scene, SceneError, SceneParameters, Sensor,
+    self, Accuracy, CameraSensor, Components, Model, Scene, SceneError, SceneParameters, Sensor,
 };
 use crate::reflectance::shadowing::Shadowing;
 use utoipa::openapi::schema::{ObjectBuilder, Schema};
@@ -130,13 +130,13 @@ fn is_camera(fields: &Fields) -> bool {
 fn take_sensor(camera: bool, fields: &mut Fields, reader: &mut Reader) -> Option<Sensor> {
     if camera {
         let camera = CameraWire::take(fields, reader)?;
-        Some(Sensor::Camera {
+        Some(Sensor::Camera(CameraSensor {
             pixel_area: camera.pixel_area_um2,
             distance: camera.distance_um,
             focal_length: camera.focal_length_um,
             aperture: camera.aperture_um,
             off_axis: camera.off_axis_deg.or_else(|| OffAxis::new(0.0).ok())?,
-        })
+        }))
     } else {
         let patch = PatchWire::take(fields, reader)?;
         Some(Sensor::Patch {

@@ -2,21 +2,19 @@
 
 use crate::http::negotiate::Format;
 use crate::http::problem::Problem;
-use axum::body::Body;
-use axum::http::{HeaderValue, header};
+use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
-/// The answer as a response; `size_hint` is about its length in bytes.
-pub(crate) fn response<T: Serialize>(answer: &T, size_hint: usize) -> Response {
+/// The answer's bytes; `size_hint` is about how many there are.
+pub(crate) fn bytes<T: Serialize>(answer: &T, size_hint: usize) -> Result<Vec<u8>, Problem> {
     let mut bytes = Vec::with_capacity(size_hint);
-    if let Err(error) = serde_json::to_writer(&mut bytes, answer) {
-        tracing::error!(%error, "an answer did not serialize");
-        return Problem::internal().into_response();
-    }
-    let mut response = Response::new(Body::from(bytes));
-    response
-        .headers_mut()
-        .insert(header::CONTENT_TYPE, HeaderValue::from_static(Format::Json.content_type()));
-    response
+    serde_json::to_writer(&mut bytes, answer).map_err(|error| Problem::unwritten(&error))?;
+    Ok(bytes)
+}
+
+/// The answer as a response.
+pub(crate) fn response<T: Serialize>(answer: &T, size_hint: usize) -> Result<Response, Problem> {
+    let bytes = bytes(answer, size_hint)?;
+    Ok(([(header::CONTENT_TYPE, Format::Json.content_type())], bytes).into_response())
 }

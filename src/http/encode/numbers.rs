@@ -16,10 +16,15 @@ impl Serialize for Numbers {
     }
 }
 
+/// The schema of a column.
+pub(crate) fn described(description: &'static str) -> ArrayBuilder {
+    let item = ObjectBuilder::new().schema_type(SchemaType::Array(vec![Type::Number, Type::Null]));
+    ArrayBuilder::new().items(item).description(Some(description))
+}
+
 impl PartialSchema for Numbers {
     fn schema() -> RefOr<Schema> {
-        let item = ObjectBuilder::new().schema_type(SchemaType::Array(vec![Type::Number, Type::Null]));
-        ArrayBuilder::new().items(item).into()
+        described("Numbers, or null where a value is not a number.").into()
     }
 }
 

@@ -6,7 +6,7 @@ use super::reader::{Fields, Reader};
 use super::wire::{Parameter, Schemas, Wire, mismatch};
 use crate::http::problem::Code;
 use utoipa::openapi::schema::{AdditionalProperties, Object, ObjectBuilder, Schema, Type};
-use utoipa::openapi::{Ref, RefOr};
+use utoipa::openapi::{Ref, RefOr, Required, path};
 
 /// An object with a fixed list of fields.
 pub(crate) trait WireObject: Sized {
@@ -102,8 +102,28 @@ pub(crate) fn described(schema: RefOr<Schema>, description: &str) -> RefOr<Schem
             one_of.description = text();
             RefOr::T(Schema::OneOf(one_of))
         }
-        other => other,
+        other @ RefOr::T(_) => other,
     }
+}
+
+/// The query parameters of an object, for the document.
+pub(crate) fn documented_parameters<T: WireObject>() -> Vec<path::Parameter> {
+    T::query_parameters(true)
+        .into_iter()
+        .map(|parameter| {
+            let list = matches!(parameter.schema, RefOr::T(Schema::Array(_)));
+            let mut documented = path::ParameterBuilder::new()
+                .name(parameter.name)
+                .parameter_in(path::ParameterIn::Query)
+                .description(Some(prose(&parameter.description)))
+                .required(if parameter.required { Required::True } else { Required::False })
+                .schema(Some(parameter.schema));
+            if list {
+                documented = documented.style(Some(path::ParameterStyle::Form)).explode(Some(false));
+            }
+            documented.build()
+        })
+        .collect()
 }
 
 /// Declares an object. `..field: Type` at the end takes in the fields of another.
@@ -112,14 +132,15 @@ macro_rules! object {
         $(#[doc = $doc:literal])*
         $name:ident as $wire_name:literal {
             $( $(#[doc = $field_doc:literal])* $field:ident: $type:ty, )*
-            $( ..$base:ident: $base_type:ty )?
+            $( ..$base:ident: $base_type:ty, )*
         }
     ) => {
         $(#[doc = $doc])*
         #[derive(Clone, Debug)]
+        #[allow(clippy::struct_field_names, reason = "the names on the wire end in their units")]
         pub(crate) struct $name {
             $( $(#[doc = $field_doc])* pub(crate) $field: $type, )*
-            $( pub(crate) $base: $base_type, )?
+            $( pub(crate) $base: $base_type, )*
         }
 
         impl $crate::http::input::object::WireObject for $name {
@@ -131,14 +152,14 @@ macro_rules! object {
                 reader: &mut $crate::http::input::reader::Reader,
             ) -> Option<Self> {
                 $( let $field = fields.take::<$type>(reader, stringify!($field)); )*
-                $( let $base = <$base_type as $crate::http::input::object::WireObject>::take(fields, reader); )?
-                Some(Self { $( $field: $field?, )* $( $base: $base?, )? })
+                $( let $base = <$base_type as $crate::http::input::object::WireObject>::take(fields, reader); )*
+                Some(Self { $( $field: $field?, )* $( $base: $base?, )* })
             }
 
             fn names() -> Vec<&'static str> {
                 #[allow(unused_mut, reason = "only a base adds to it")]
                 let mut names = vec![$(stringify!($field)),*];
-                $( names.extend(<$base_type as $crate::http::input::object::WireObject>::names()); )?
+                $( names.extend(<$base_type as $crate::http::input::object::WireObject>::names()); )*
                 names
             }
 
@@ -148,13 +169,13 @@ macro_rules! object {
                 $( let object = $crate::http::input::object::property::<$type>(
                     object, stringify!($field), concat!($($field_doc, "\n"),*),
                 ); )*
-                $( let object = <$base_type as $crate::http::input::object::WireObject>::properties(object); )?
+                $( let object = <$base_type as $crate::http::input::object::WireObject>::properties(object); )*
                 object
             }
 
             fn inner(schemas: &mut $crate::http::input::wire::Schemas) {
                 $( <$type as $crate::http::input::wire::Wire>::collect(schemas); )*
-                $( <$base_type as $crate::http::input::object::WireObject>::inner(schemas); )?
+                $( <$base_type as $crate::http::input::object::WireObject>::inner(schemas); )*
             }
 
             fn query_parameters(required: bool) -> Vec<$crate::http::input::wire::Parameter> {
@@ -166,7 +187,7 @@ macro_rules! object {
                 )); )*
                 $( parameters.extend(
                     <$base_type as $crate::http::input::object::WireObject>::query_parameters(required),
-                ); )?
+                ); )*
                 parameters
             }
         }
@@ -207,6 +228,14 @@ macro_rules! object {
         impl utoipa::PartialSchema for $name {
             fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::Schema> {
                 <Self as $crate::http::input::object::WireObject>::object_schema().into()
+            }
+        }
+
+        impl utoipa::IntoParams for $name {
+            fn into_params(
+                _: impl Fn() -> Option<utoipa::openapi::path::ParameterIn>,
+            ) -> Vec<utoipa::openapi::path::Parameter> {
+                $crate::http::input::object::documented_parameters::<Self>()
             }
         }
 

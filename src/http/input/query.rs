@@ -19,6 +19,19 @@ impl<T: WireObject + Send> FromRequestParts<Limits> for Query<T> {
     }
 }
 
+/// A query without parameters.
+pub(crate) struct NoQuery;
+
+impl<S: Sync> FromRequestParts<S> for NoQuery {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        let mut reader = Reader::query();
+        Fields::new(object(parts.uri.query().unwrap_or_default())?).finish(&mut reader, &[]);
+        reader.finish(Some(Self)).map_err(Problem::invalid)
+    }
+}
+
 fn read<T: WireObject>(query: &str) -> Result<T, Problem> {
     let mut fields = Fields::new(object(query)?);
     let mut reader = Reader::query();

@@ -1,6 +1,6 @@
 //! Collects what is wrong with a request while it is being read.
 
-use super::node::{Object, excerpt};
+use super::node::{Node, Object, excerpt};
 use super::wire::Wire;
 use crate::http::problem::{Code, FieldError};
 use std::borrow::Cow;
@@ -169,6 +169,9 @@ impl Fields {
         let position = self.object.fields.iter().position(|(given, _)| given == name);
         let node = position.map(|position| self.object.fields.swap_remove(position).1);
         reader.within(name, |reader| match node {
+            Some(Node::Array(_)) if reader.is_flat() && !T::REPEATABLE => {
+                reader.fail(Code::Duplicate, "given more than once")
+            }
             Some(node) => T::read(node, reader),
             None => T::absent(reader),
         })
@@ -180,7 +183,8 @@ impl Fields {
             reader.within(name, |reader| reader.error(Code::Duplicate, "given more than once"));
         }
         for (name, _) in self.object.fields {
-            let detail = format!("unknown; accepted here: {}", accepted.join(", "));
+            let accepted = if accepted.is_empty() { "none".to_owned() } else { accepted.join(", ") };
+            let detail = format!("unknown; accepted here: {accepted}");
             reader.within(excerpt(&name), |reader| reader.error(Code::UnknownField, detail));
         }
     }

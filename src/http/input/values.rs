@@ -47,6 +47,8 @@ fn list_schema(items: RefOr<Schema>, most: usize) -> Array {
 pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Q>);
 
 impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
+    const REPEATABLE: bool = true;
+
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let node = if reader.is_flat() { split(node) } else { node };
         many(node, MOST, reader).map(Self)
@@ -154,7 +156,7 @@ impl Wire for Medium {
                     reader
                         .fail(Code::NotOffered, format!("no materials are offered yet: expected {expected}"))
                 }),
-            Node::Object(_) => IndexWire::read_object(node, reader).and_then(index),
+            Node::Object(_) => IndexWire::read_object(node, reader).and_then(|wire| index(&wire)),
             other => reader.fail(Code::WrongType, mismatch(&other, &expected)),
         }
     }
@@ -163,7 +165,7 @@ impl Wire for Medium {
         if fields.has_any(&[name]) {
             fields.take_named(reader, name)
         } else {
-            IndexWire::take(fields, reader).and_then(index)
+            IndexWire::take(fields, reader).and_then(|wire| index(&wire))
         }
     }
 
@@ -189,7 +191,7 @@ impl Wire for Medium {
     }
 }
 
-fn index(wire: IndexWire) -> Option<Medium> {
+fn index(wire: &IndexWire) -> Option<Medium> {
     let k = wire.k.or_else(|| IndexK::new(0.0).ok())?;
     Some(Medium::Index(RefractiveIndex { n: wire.n, k }))
 }
@@ -310,6 +312,8 @@ impl Wire for Shadowing {
 }
 
 impl Wire for Components {
+    const REPEATABLE: bool = true;
+
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let node = match node {
             Node::Text(text) if text == "auto" => return Some(Self::Auto),
@@ -343,5 +347,13 @@ impl Wire for Components {
             .max_items(Some(Component::ALL.len()))
             .unique_items(true);
         OneOfBuilder::new().item(auto).item(list).into()
+    }
+
+    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
+        // A query has no oneOf of a word and a list: one list of words says the same.
+        let words = std::iter::once("auto").chain(Component::ALL.iter().map(|component| component.name()));
+        let word = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(words)).into();
+        let schema = list_schema(word, Component::ALL.len()).into();
+        vec![Parameter { name, description: description.to_owned(), required, schema }]
     }
 }

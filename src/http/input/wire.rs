@@ -34,6 +34,9 @@ pub(crate) trait Wire: Sized {
     /// Whether it may be left out.
     const OPTIONAL: bool = false;
 
+    /// Whether a query may give it more than once.
+    const REPEATABLE: bool = false;
+
     /// Its schema: inline, or a reference to one that [`Self::collect`] gathers.
     fn schema() -> RefOr<Schema>;
 
@@ -56,6 +59,7 @@ pub(crate) struct Parameter {
 
 impl<T: Wire> Wire for Option<T> {
     const OPTIONAL: bool = true;
+    const REPEATABLE: bool = T::REPEATABLE;
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
@@ -120,7 +124,6 @@ pub(crate) fn number(node: &Node, reader: &mut Reader, expected: &dyn std::fmt::
                 format!("{} is no finite 64-bit number: expected {expected}", super::node::excerpt(text));
             reader.fail(Code::OutOfRange, detail)
         }
-        Node::Array(_) if reader.is_flat() => reader.fail(Code::Duplicate, "given more than once"),
         other => reader.fail(Code::WrongType, mismatch(other, expected)),
     }
 }

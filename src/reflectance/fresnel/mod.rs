@@ -67,7 +67,8 @@ impl Energy {
 
 impl From<Energy> for Estimate {
     fn from(energy: Energy) -> Self {
-        Self { value: Scaled::new(energy.value), error: Scaled::new(energy.error) }
+        let least = Scaled::new((energy.value - energy.error).max(0.0));
+        Self { value: Scaled::new(energy.value), error: Scaled::new(energy.error), least }
     }
 }
 

@@ -78,6 +78,25 @@ impl Scaled {
         self * self
     }
 
+    /// self · (e^`log_error` − 1): how far a factor e^{±`log_error`} may carry a value.
+    #[must_use]
+    pub fn spread(self, log_error: f64) -> Self {
+        if self.is_zero() {
+            self
+        } else if log_error < 1.0 {
+            self * libm::expm1(log_error)
+        } else {
+            self * Self::exp(log_error)
+        }
+    }
+
+    /// |self − other|.
+    #[must_use]
+    pub fn distance(self, other: Self) -> Self {
+        let difference = self + Self { significand: -other.significand, exponent: other.exponent };
+        Self { significand: difference.significand.abs(), exponent: difference.exponent }
+    }
+
     /// `self^n` by repeated squaring; relative error at most n ε.
     #[must_use]
     pub fn powi(self, mut n: u32) -> Self {
@@ -122,6 +141,11 @@ impl Scaled {
     /// Whether the value is exactly zero.
     pub fn is_zero(self) -> bool {
         self.significand == 0.0
+    }
+
+    /// Whether the value is below zero.
+    pub fn is_negative(self) -> bool {
+        self.significand < 0.0
     }
 
     /// Whether there is no value.
@@ -224,5 +248,7 @@ mod tests {
         assert!(((a + a).ln() - (-2000.0 + 2f64.ln())).abs() < 1e-12);
         assert_eq!((Scaled::ONE + Scaled::exp(-100.0)).to_f64(), 1.0);
         assert_eq!((Scaled::ZERO + Scaled::new(2.0)).to_f64(), 2.0);
+        assert_eq!(a.distance(a), Scaled::ZERO);
+        assert_eq!(Scaled::new(3.0).distance(Scaled::new(5.0)).to_f64(), 2.0);
     }
 }

@@ -6,8 +6,8 @@
 //! elementary, so the trade of speed for accuracy is a question about S alone: one file a method.
 //!
 //! Domain: finite g ≥ 0 and x ≥ 0, from subnormal to 1e250. Every method returns [`LobeSeries`]:
-//! the value with an exponent that cannot underflow, a relative error bound that holds, and what
-//! an error of g or x does to it.
+//! the value with an exponent that cannot underflow, an error bound that holds, and what an error of
+//! g or x does to it.
 
 mod saddle;
 mod series;
@@ -16,11 +16,13 @@ mod uniform;
 
 use super::EPSILON;
 use super::scaled::Scaled;
+use crate::reflectance::estimate::Estimate;
+use saddle::Saddle;
 
 /// How the series is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The cheapest whose bound keeps the tolerance.
+    /// The cheapest that is as accurate as f64 allows.
     Auto,
     /// Summed to convergence around the largest term.
     Series,
@@ -55,10 +57,9 @@ impl Method {
 /// A value of S.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LobeSeries {
-    /// S, or what the named approximation makes of it. Infinite where the approximation diverges.
-    pub value: Scaled,
-    /// Bound of |value − S|/S for the g and x given, rounding included.
-    pub relative_error: f64,
+    /// S, or what the named approximation makes of it, with the bound of its error for the g and x
+    /// given, rounding included. Infinite where the approximation diverges.
+    pub estimate: Estimate,
     /// |∂ ln S/∂ ln g|
     pub condition_g: f64,
     /// |∂ ln S/∂ ln x|
@@ -68,14 +69,22 @@ pub struct LobeSeries {
 }
 
 impl LobeSeries {
-    /// The series without a surface to scatter: g = 0.
-    const ZERO: Self = Self {
-        value: Scaled::ZERO,
-        relative_error: 0.0,
-        condition_g: 1.0,
-        condition_x: 0.0,
-        method: Method::Series,
-    };
+    /// A value that is S up to truncation and rounding.
+    fn converged(value: Scaled, truncation: f64, condition_g: f64, condition_x: f64, method: Method) -> Self {
+        let log_error = truncation + rounding(condition_g, condition_x);
+        Self { estimate: Estimate::within(value, log_error), condition_g, condition_x, method }
+    }
+
+    /// A value that need not be near S, its own rounding e^{±`log_error`}, measured against S.
+    fn compared(value: Scaled, log_error: f64, s: &Self, method: Method) -> Self {
+        let error = value.distance(s.estimate.value) + s.estimate.error + value.spread(log_error);
+        Self { estimate: Estimate { value, error, least: s.estimate.least }, method, ..*s }
+    }
+
+    /// The series without roughness: g = 0.
+    fn zero(method: Method) -> Self {
+        Self { estimate: Estimate::ZERO, condition_g: 1.0, condition_x: 0.0, method }
+    }
 }
 
 /// Rounding error of a converged value in units of ε(1 + condition): four times the worst seen on
@@ -87,53 +96,39 @@ fn rounding(condition_g: f64, condition_x: f64) -> f64 {
     ROUNDING_UNITS * EPSILON * (1.0 + condition_g + condition_x)
 }
 
-/// How far an approximation lies from S, given a converged value of it; infinite past f64's range.
-fn excess(approximation: Scaled, converged: &LobeSeries) -> f64 {
-    let ratio = (approximation / converged.value).to_f64();
-    (ratio - 1.0).abs() + (1.0 + ratio) * converged.relative_error
-}
+/// Truncation that disappears in the rounding.
+const NEGLIGIBLE_TRUNCATION: f64 = 4.0 * EPSILON;
 
-/// S(g, x) by `method`; `tolerance` matters to [`Method::Auto`] only.
+/// S(g, x) by `method`.
 ///
 /// A named method is used as asked, wherever it leads: its bound then says how far off it is.
-pub fn evaluate(method: Method, g: f64, x: f64, tolerance: f64) -> LobeSeries {
+pub fn evaluate(method: Method, g: f64, x: f64) -> LobeSeries {
     if g == 0.0 {
         return match method {
-            Method::Rough => single_term::rough(g, x),
-            named => LobeSeries { method: reported(named), ..LobeSeries::ZERO },
+            Method::Rough => single_term::rough_without_roughness(x),
+            Method::Auto => LobeSeries::zero(Method::Series),
+            named => LobeSeries::zero(named),
         };
     }
     match method {
-        Method::Auto => cheapest(g, x, tolerance),
-        Method::Series => series::converged(g, x),
+        Method::Auto => cheapest(g, x),
+        Method::Series => series::converged(g, x, &Saddle::of(g, x)),
         Method::Paper => series::first_hundred(g, x),
-        Method::Uniform => uniform::order_four(g, x, &saddle::Saddle::of(g, x)),
+        Method::Uniform => uniform::order_four(g, x, &Saddle::of(g, x)),
         Method::Smooth => single_term::smooth(g, x),
         Method::Rough => single_term::rough(g, x),
     }
 }
 
-const fn reported(method: Method) -> Method {
-    match method {
-        Method::Auto => Method::Series,
-        named => named,
+/// The cheapest method that is as good as the sum: one term, the saddle point, or the sum itself.
+fn cheapest(g: f64, x: f64) -> LobeSeries {
+    if single_term::second_to_first(g, x) <= NEGLIGIBLE_TRUNCATION {
+        return single_term::smooth(g, x);
     }
-}
-
-/// The cheapest method whose bound keeps `tolerance`: one term, the saddle point, or the sum.
-fn cheapest(g: f64, x: f64, tolerance: f64) -> LobeSeries {
-    if single_term::smooth_truncation(g, x) <= tolerance {
-        let smooth = single_term::smooth(g, x);
-        if smooth.relative_error <= tolerance {
-            return smooth;
-        }
+    let saddle = Saddle::of(g, x);
+    if uniform::serves(&saddle) && uniform::truncation(&saddle) <= NEGLIGIBLE_TRUNCATION {
+        uniform::order_four(g, x, &saddle)
+    } else {
+        series::converged(g, x, &saddle)
     }
-    let saddle = saddle::Saddle::of(g, x);
-    if uniform::serves(&saddle) && uniform::truncation(&saddle) <= tolerance {
-        let uniform = uniform::order_four(g, x, &saddle);
-        if uniform.relative_error <= tolerance {
-            return uniform;
-        }
-    }
-    series::converged_at(g, x, &saddle)
 }

@@ -15,8 +15,9 @@ use crate::reflectance::numeric::scaled::Scaled;
 const NEGLIGIBLE: f64 = 1.0 / (1u64 << 58) as f64;
 /// From this variance of the terms on, every h-th term is enough: the first terms are below e^{-60}.
 const STRIDED_FROM_VARIANCE: f64 = 64.0;
-/// From this μ on f64 cannot tell neighbouring terms apart, and c₁/μ of the expansion is below 1e-20.
-const CONTINUOUS_FROM: f64 = 1e20;
+/// From this μ w on, which is the size of the exponents, their rounding leaves the terms no digits to
+/// be summed with; μ is then above 1e10 and c₅/μ⁵ below 1e-47.
+const CONTINUOUS_FROM: f64 = 1e14;
 /// The authors' number of terms.
 const PAPER_TERMS: f64 = 100.0;
 
@@ -37,37 +38,19 @@ impl Moments {
         self.inverse += t / m;
     }
 
+    /// The sum times the term it is relative to, and its conditions.
     fn series(self, g: f64, x: f64, reference: Scaled, method: Method) -> LobeSeries {
         let condition_g = (self.first / self.sum - g).abs();
         let condition_x = x * (self.inverse / self.sum);
-        LobeSeries {
-            value: reference * self.sum,
-            relative_error: rounding(condition_g, condition_x),
-            condition_g,
-            condition_x,
-            method,
-        }
+        LobeSeries::converged(reference * self.sum, 0.0, condition_g, condition_x, method)
     }
 }
 
 /// S to full precision.
-pub(super) fn converged(g: f64, x: f64) -> LobeSeries {
-    converged_at(g, x, &Saddle::of(g, x))
-}
-
-/// S to full precision, the saddle known.
-pub(super) fn converged_at(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
-    if saddle.mu >= CONTINUOUS_FROM {
-        let (condition_g, condition_x) = ((saddle.mu - g).abs().max(1.0), x / saddle.mu);
-        return LobeSeries {
-            value: uniform::leading_term(g, x, saddle),
-            relative_error: rounding(condition_g, condition_x),
-            condition_g,
-            condition_x,
-            method: Method::Series,
-        };
-    }
-    if saddle.variance() >= STRIDED_FROM_VARIANCE {
+pub(super) fn converged(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
+    if saddle.mu * saddle.w >= CONTINUOUS_FROM {
+        LobeSeries { method: Method::Series, ..uniform::order_four(g, x, saddle) }
+    } else if saddle.variance() >= STRIDED_FROM_VARIANCE {
         strided(g, x, saddle)
     } else {
         let centre = saddle.mu.round().max(1.0);
@@ -81,21 +64,20 @@ pub(super) fn first_hundred(g: f64, x: f64) -> LobeSeries {
     let saddle = Saddle::of(g, x);
     let centre = saddle.mu.round().clamp(1.0, PAPER_TERMS);
     let moments = neighbours(g, x, centre, PAPER_TERMS);
-    let mut partial = moments.series(g, x, term(centre, g, x), Method::Paper);
-    partial.relative_error += paper_truncation(g, x, partial.value);
-    partial
-}
-
-/// Bound of the share of S beyond the 100th term: with ratio r from there on falling, the rest is
-/// at most t₁₀₁/(1 − r); where r ≥ 1 only "all of it" can be said.
-fn paper_truncation(g: f64, x: f64, partial: Scaled) -> f64 {
-    let m = PAPER_TERMS + 1.0;
-    let ratio = ratio_up(m, g, x);
-    if ratio >= 1.0 {
-        return 1.0;
+    let partial = moments.series(g, x, term(centre, g, x), Method::Paper);
+    let value = partial.estimate.value;
+    // With the ratio from the 101st term on falling, the rest is at most t₁₀₁/(1 − ratio).
+    let next = PAPER_TERMS + 1.0;
+    let ratio = ratio_up(next, g, x);
+    if ratio < 0.5 {
+        let rest = (term(next, g, x) * (1.0 / (1.0 - ratio)) / value).to_f64();
+        if rest < 1e-3 {
+            let (condition_g, condition_x) = (partial.condition_g + 1.0, partial.condition_x + 1.0);
+            return LobeSeries::converged(value, rest, condition_g, condition_x, Method::Paper);
+        }
     }
-    let rest = (term(m, g, x) * (1.0 / (1.0 - ratio)) / partial).to_f64();
-    rest.min(1.0)
+    let own = rounding(partial.condition_g, partial.condition_x);
+    LobeSeries::compared(value, own, &converged(g, x, &saddle), Method::Paper)
 }
 
 /// t_{m+1}/t_m.

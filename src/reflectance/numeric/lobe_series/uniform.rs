@@ -5,7 +5,7 @@
 //! uniformly in x; at x = 0 it is 1/g + 1/g² + 2/g³ + 6/g⁴ + 24/g⁵, and (49) is its u → 0 limit.
 
 use super::saddle::Saddle;
-use super::{LobeSeries, Method, excess, rounding, series};
+use super::{LobeSeries, Method, rounding, series};
 use crate::reflectance::numeric::scaled::Scaled;
 
 /// Bound of |c₅| and the tail it stands for, over all w ≥ 1 and μ ≥ 10: c₅(1) = 5! is its largest
@@ -63,23 +63,33 @@ fn correction(saddle: &Saddle) -> f64 {
 /// S by the expansion to order 4. Where it does not serve, its error is measured against the sum.
 pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     let value = leading_term(g, x, saddle) * correction(saddle);
-    let condition_g = (saddle.mu - g).abs().max(1.0);
-    let condition_x = x / saddle.mu;
-    let truncation =
-        if serves(saddle) { truncation(saddle) } else { excess(value, &series::converged_at(g, x, saddle)) };
-    LobeSeries {
-        value,
-        relative_error: truncation + rounding(condition_g, condition_x),
-        condition_g,
-        condition_x,
-        method: Method::Uniform,
+    let (condition_g, condition_x) = conditions(g, x, saddle);
+    if serves(saddle) {
+        LobeSeries::converged(value, truncation(saddle), condition_g, condition_x, Method::Uniform)
+    } else {
+        let s = series::converged(g, x, saddle);
+        // Far outside, 1 + c₁/μ + … may be negative: the report's quantities are not.
+        let value = if value.is_negative() { Scaled::ZERO } else { value };
+        LobeSeries::compared(value, rounding(condition_g, condition_x), &s, Method::Uniform)
     }
+}
+
+/// |∂ ln S/∂ ln g| and |∂ ln S/∂ ln x| at the saddle.
+pub(super) fn conditions(g: f64, x: f64, saddle: &Saddle) -> (f64, f64) {
+    ((saddle.mu - g).abs().max(1.0), x / saddle.mu)
 }
 
 /// e^ψ/(μ √w).
 pub(super) fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
     let Saddle { u, mu, w } = *saddle;
-    // With 2u μ = 2x/μ the exponent is μ − g − 2x/μ; for small u the difference μ − g is g expm1(u).
-    let psi = if u < 0.5 { g * (libm::expm1(u) - 2.0 * u * libm::exp(u)) } else { mu - g - 2.0 * (x / mu) };
+    // For small u in a form that does not cancel. For large u stationary in μ: with 2x/μ in place of
+    // μ ln(μ/g) + x/μ, the rounding of μ would come back w times as large.
+    let psi = if u < 0.5 {
+        g * (libm::expm1(u) - 2.0 * u * libm::exp(u))
+    } else {
+        // Beyond u = 600 the quotient may overflow.
+        let ln_ratio = if u < 600.0 { libm::log(mu / g) } else { libm::log(mu) - libm::log(g) };
+        (mu - g) - mu * ln_ratio - x / mu
+    };
     Scaled::exp(psi) * Scaled::new(1.0 / (mu * w.sqrt()))
 }

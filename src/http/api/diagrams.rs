@@ -1,0 +1,114 @@
+//! `GET` and `POST /v1/diagrams`: a sweep over one zenith angle at several fixed ones.
+
+use super::responses::{GetProblems, PostProblems};
+use super::scene::CheckedScene;
+use super::sweep::CheckedSweep;
+use crate::http::body::JsonBody;
+use crate::http::compute;
+use crate::http::encode::table::Diagram;
+use crate::http::encode::{csv, json};
+use crate::http::input::object::object;
+use crate::http::input::query::Query;
+use crate::http::input::wire::named;
+use crate::http::link::{Known, tagged};
+use crate::http::negotiate::{Format, JsonOrCsv};
+use crate::http::problem::Problem;
+use crate::http::track::Deadline;
+use crate::reflectance::evaluate::Quantity;
+use axum::http::header;
+use axum::response::{IntoResponse as _, Response};
+
+named! {
+    Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
+}
+
+object! {
+    /// What to add to a diagram.
+    DiagramOutput as "DiagramOutput" {
+        /// Adds the decimal logarithm of every value. False when absent or null.
+        log10: Option<bool>,
+    }
+}
+
+object! {
+    /// A scene, and a sweep through its directions.
+    DiagramRequest as "DiagramRequest" {
+        /// `radiance` (when absent or null) or `brdf`.
+        quantity: Option<Quantity>,
+        /// What to add.
+        output: Option<DiagramOutput>,
+        ..sweep: CheckedSweep,
+        ..scene: CheckedScene,
+    }
+}
+
+/// A tabulated diagram, as a link.
+///
+/// The fields of the POST request, flattened into the query: `medium=perfect_conductor` or `n` and `k`,
+/// `at_deg=10,30,45,60`. The answer is a function of the link alone and carries a strong entity tag.
+#[utoipa::path(
+    get,
+    path = "/v1/diagrams",
+    tag = "diagrams",
+    params(DiagramRequest),
+    responses(
+        (status = 200, description = "The diagram.", content(
+            (Diagram = "application/json"),
+            (String = "text/csv")
+        )),
+        (status = 304, description = "The client has this answer already."),
+        GetProblems
+    )
+)]
+pub(crate) async fn link(
+    JsonOrCsv(format): JsonOrCsv,
+    known: Known,
+    deadline: Deadline,
+    Query(request): Query<DiagramRequest>,
+) -> Result<Response, Problem> {
+    let body = draw(format, deadline, request).await?;
+    Ok(tagged(&known, format.content_type(), body))
+}
+
+/// A tabulated diagram.
+#[utoipa::path(
+    post,
+    path = "/v1/diagrams",
+    tag = "diagrams",
+    request_body(content = DiagramRequest, description = "The scene and the sweep."),
+    responses(
+        (status = 200, description = "The diagram.", content(
+            (Diagram = "application/json"),
+            (String = "text/csv")
+        )),
+        PostProblems
+    )
+)]
+pub(crate) async fn diagram(
+    JsonOrCsv(format): JsonOrCsv,
+    deadline: Deadline,
+    JsonBody(request): JsonBody<DiagramRequest>,
+) -> Result<Response, Problem> {
+    let body = draw(format, deadline, request).await?;
+    Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, "accept")], body).into_response())
+}
+
+async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Result<Vec<u8>, Problem> {
+    let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
+    let quantity = quantity.unwrap_or(Quantity::Radiance);
+    let log10 = output.and_then(|output| output.log10).unwrap_or(false);
+    compute::run(deadline, sweep.rows(), move || {
+        let table = sweep.evaluate(&scene, quantity, log10, "").map_err(|error| {
+            tracing::error!(%error, "a checked sweep left its range");
+            Problem::internal()
+        })?;
+        match format {
+            Format::Json => {
+                let diagram = Diagram::new(table, false);
+                json::bytes(&diagram, diagram.size_hint())
+            }
+            Format::Csv => csv::write(&[table], false),
+        }
+    })
+    .await?
+}

@@ -1,0 +1,159 @@
+//! `GET /v1/figures` and `GET /v1/figures/{id}`: the report's diagrams with their captions' parameters.
+
+use super::responses::{GetProblems, list};
+use crate::http::compute;
+use crate::http::encode::table::Diagram;
+use crate::http::encode::{csv, json};
+use crate::http::input::object::object;
+use crate::http::input::query::{NoQuery, Query};
+use crate::http::link::{Known, tagged};
+use crate::http::negotiate::{Format, JsonOnly, JsonOrCsv};
+use crate::http::problem::{Kind, Problem};
+use crate::http::track::Deadline;
+use crate::reflectance::figures::{FIGURES, Figure, find};
+use axum::extract::Path;
+use axum::response::Response;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use utoipa::openapi::{RefOr, Response as Documented};
+use utoipa::{IntoResponses, ToSchema};
+
+/// The directions of the largest figure, about: enough to leave the threads that serve connections.
+const DIRECTIONS: usize = 4000;
+
+/// A figure that can be computed.
+#[derive(Serialize, ToSchema)]
+pub(crate) struct FigureSummary {
+    /// `11a` … `24`.
+    #[schema(example = "13a")]
+    id: &'static str,
+    /// What the caption says it shows.
+    title: &'static str,
+    /// The parameters, and where they come from if not from the caption.
+    parameters: &'static str,
+    /// Where it is.
+    #[schema(example = "/v1/figures/13a")]
+    href: String,
+}
+
+/// The figures that the report computes.
+#[derive(Serialize, ToSchema)]
+pub(crate) struct FigureList {
+    /// In the report's order.
+    figures: Vec<FigureSummary>,
+}
+
+/// A figure of the report, computed.
+#[derive(Serialize, ToSchema)]
+pub(crate) struct FigureAnswer {
+    /// `11a` … `24`.
+    #[schema(example = "13a")]
+    id: &'static str,
+    /// What the caption says it shows.
+    title: &'static str,
+    /// The parameters, and where they come from if not from the caption.
+    parameters: &'static str,
+    /// One diagram a model.
+    panels: Vec<Panel>,
+}
+
+/// One diagram of a figure.
+#[derive(Serialize, ToSchema)]
+pub(crate) struct Panel {
+    /// What it shows.
+    label: &'static str,
+    /// The numbers.
+    diagram: Diagram,
+}
+
+object! {
+    /// What to add to a figure.
+    FigureQuery as "FigureQuery" {
+        /// Adds the decimal logarithm of every value. False when absent.
+        log10: Option<bool>,
+    }
+}
+
+/// No figure of that id.
+pub(crate) struct NoFigure;
+
+impl IntoResponses for NoFigure {
+    fn responses() -> BTreeMap<String, RefOr<Documented>> {
+        list(&[(Kind::NotFound, "The report has no such figure; the detail lists those that it has.")])
+    }
+}
+
+/// The report's figures.
+#[utoipa::path(
+    get,
+    path = "/v1/figures",
+    tag = "diagrams",
+    responses(
+        (status = 200, description = "Every figure, with its link.", body = FigureList),
+        (status = 304, description = "The client has this answer already."),
+        GetProblems
+    )
+)]
+pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Response, Problem> {
+    let figures = FIGURES.iter().map(|figure| FigureSummary {
+        id: figure.id,
+        title: figure.title,
+        parameters: figure.parameters,
+        href: format!("/v1/figures/{}", figure.id),
+    });
+    let body = json::bytes(&FigureList { figures: figures.collect() }, 16 << 10)?;
+    Ok(tagged(&known, Format::Json.content_type(), body))
+}
+
+/// One figure of the report, computed from its caption's parameters.
+#[utoipa::path(
+    get,
+    path = "/v1/figures/{id}",
+    tag = "diagrams",
+    params(("id" = String, Path, description = "The figure's number and letter.", example = "13a"), FigureQuery),
+    responses(
+        (status = 200, description = "The figure.", content(
+            (FigureAnswer = "application/json"),
+            (String = "text/csv")
+        )),
+        (status = 304, description = "The client has this answer already."),
+        NoFigure,
+        GetProblems
+    )
+)]
+pub(crate) async fn figure(
+    JsonOrCsv(format): JsonOrCsv,
+    known: Known,
+    deadline: Deadline,
+    Path(id): Path<String>,
+    Query(query): Query<FigureQuery>,
+) -> Result<Response, Problem> {
+    let figure = find(&id).ok_or_else(no_figure)?;
+    let log10 = query.log10.unwrap_or(false);
+    let body = compute::run(deadline, DIRECTIONS, move || draw(figure, format, log10)).await??;
+    Ok(tagged(&known, format.content_type(), body))
+}
+
+fn no_figure() -> Problem {
+    let ids = FIGURES.iter().map(|figure| figure.id).collect::<Vec<_>>().join(", ");
+    Problem::new(Kind::NotFound, format!("The report has no such figure. It has: {ids}"))
+}
+
+fn draw(figure: &'static Figure, format: Format, log10: bool) -> Result<Vec<u8>, Problem> {
+    let panels = figure.evaluate(log10).map_err(|error| {
+        tracing::error!(%error, figure = figure.id, "a preset is out of range");
+        Problem::internal()
+    })?;
+    match format {
+        Format::Csv => csv::write(&panels.into_iter().map(|panel| panel.table).collect::<Vec<_>>(), true),
+        Format::Json => {
+            let panels: Vec<Panel> = panels
+                .into_iter()
+                .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
+                .collect();
+            let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
+            let Figure { id, title, parameters, .. } = *figure;
+            json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The sweep of a diagram as requests carry it.
+
+use crate::http::input::object::{WireObject, object};
+use crate::http::input::reader::{Fields, Reader};
+use crate::http::input::values::List;
+use crate::http::input::wire::{Count, Parameter, Schemas, named};
+use crate::http::problem::Code;
+use crate::reflectance::bounds::{self, Bounds, MAX_CURVES, MAX_DIRECTIONS, MAX_SWEEP_POINTS};
+use crate::reflectance::diagram::{DiagramError, Division, Sweep, SweepAxis};
+use crate::reflectance::quantity::{Azimuth, OutOfBounds, Quantity, ViewerZenith};
+use utoipa::openapi::schema::ObjectBuilder;
+
+named! {
+    SweepAxis, "an angle to sweep", [SweepAxis::ThetaR, SweepAxis::ThetaI];
+}
+
+/// The step, in degrees, where neither it nor the number of points is given.
+const DEFAULT_STEP: f64 = 1.0;
+
+/// An end of a sweep, degrees.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SweepAngle(f64);
+
+/// The step of a sweep, degrees.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SweepStep(f64);
+
+impl Quantity for SweepAngle {
+    const BOUNDS: &'static Bounds = &bounds::SWEEP_ANGLE;
+
+    fn new(value: f64) -> Result<Self, OutOfBounds> {
+        within(value, Self::BOUNDS).map(Self)
+    }
+
+    fn get(self) -> f64 {
+        self.0
+    }
+}
+
+impl Quantity for SweepStep {
+    const BOUNDS: &'static Bounds = &bounds::SWEEP_STEP;
+
+    fn new(value: f64) -> Result<Self, OutOfBounds> {
+        within(value, Self::BOUNDS).map(Self)
+    }
+
+    fn get(self) -> f64 {
+        self.0
+    }
+}
+
+fn within(value: f64, bounds: &'static Bounds) -> Result<f64, OutOfBounds> {
+    if bounds.contains(value) { Ok(value) } else { Err(OutOfBounds { value, bounds }) }
+}
+
+object! {
+    /// One zenith angle swept, the other fixed.
+    SweepWire as "Sweep" {
+        /// Which angle runs: `theta_r_deg` for a fixed source, `theta_i_deg` for a fixed view.
+        sweep: SweepAxis,
+        /// Where it starts, degrees. A negative θ_i stands for the same zenith on the viewer's side.
+        from_deg: SweepAngle,
+        /// Where it ends, degrees; not before it starts.
+        to_deg: SweepAngle,
+        /// The step, degrees; 1 when neither it nor `points` is given.
+        step_deg: Option<SweepStep>,
+        /// Instead of a step: how many points, both ends among them.
+        points: Option<Count<1, MAX_SWEEP_POINTS>>,
+        /// The fixed angles, degrees, one series each: θ_i in 0 to 90 or θ_r in -90 to 90.
+        at_deg: List<ViewerZenith, MAX_CURVES>,
+        /// φ_r, degrees; 0 when absent or null.
+        phi_r_deg: Option<Azimuth>,
+    }
+}
+
+/// A sweep that [`Sweep::new`] accepted.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedSweep(pub(crate) Sweep);
+
+impl WireObject for CheckedSweep {
+    const NAME: &'static str = SweepWire::NAME;
+    const DESCRIPTION: &'static str = SweepWire::DESCRIPTION;
+
+    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let wire = SweepWire::take(fields, reader)?;
+        let division = match (wire.step_deg, wire.points) {
+            (Some(_), Some(_)) => {
+                return reader.within("points", |reader| {
+                    reader.fail(Code::Inconsistent, "give step_deg or points, not both")
+                });
+            }
+            (None, Some(Count(points))) => Division::Points(points),
+            (step, None) => Division::Step(step.map_or(DEFAULT_STEP, Quantity::get)),
+        };
+        let phi_r = wire.phi_r_deg.or_else(|| Azimuth::new(0.0).ok())?;
+        let at = wire.at_deg.0.into_iter().map(Quantity::get).collect();
+        let ends = (wire.from_deg.get(), wire.to_deg.get());
+        match Sweep::new(wire.sweep, ends, division, at, phi_r) {
+            Ok(sweep) => Some(Self(sweep)),
+            Err(errors) => {
+                for error in &errors {
+                    note(error, reader);
+                }
+                None
+            }
+        }
+    }
+
+    fn names() -> Vec<&'static str> {
+        SweepWire::names()
+    }
+
+    fn properties(object: ObjectBuilder) -> ObjectBuilder {
+        SweepWire::properties(object)
+    }
+
+    fn inner(schemas: &mut Schemas) {
+        SweepWire::inner(schemas);
+    }
+
+    fn query_parameters(required: bool) -> Vec<Parameter> {
+        SweepWire::query_parameters(required)
+    }
+}
+
+/// Notes what the core found at the field that a client knows.
+fn note(error: &DiagramError, reader: &mut Reader) {
+    let (field, code, detail) = match error {
+        DiagramError::From(error) => ("from_deg", Code::OutOfRange, error.to_string()),
+        DiagramError::To(error) => ("to_deg", Code::OutOfRange, error.to_string()),
+        DiagramError::Step(error) => ("step_deg", Code::OutOfRange, error.to_string()),
+        DiagramError::EndsBeforeStart => {
+            ("to_deg", Code::Inconsistent, "the sweep ends before it starts".into())
+        }
+        DiagramError::Points { points } => {
+            let detail = format!(
+                "a sweep of {points} points: expected from 1 to {MAX_SWEEP_POINTS}, and at least 2 unless it has no length"
+            );
+            ("points", Code::OutOfRange, detail)
+        }
+        DiagramError::At { position, error } => {
+            return reader.within("at_deg", |reader| {
+                reader.at(*position, |reader| reader.error(Code::OutOfRange, error.to_string()));
+            });
+        }
+        DiagramError::Curves { curves } => {
+            ("at_deg", Code::TooMany, format!("{curves} fixed angles: expected from 1 to {MAX_CURVES}"))
+        }
+        DiagramError::TooManyRows { rows } => {
+            let detail =
+                format!("points times fixed angles is {rows}: at most {MAX_DIRECTIONS} are answered at once");
+            ("points", Code::TooMany, detail)
+        }
+    };
+    reader.within(field, |reader| reader.error(code, detail));
+}

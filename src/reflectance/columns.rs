@@ -1,0 +1,125 @@
+//! Columns of answers: components and their sum, direction by direction, each non-number explained.
+
+use super::estimate::Estimate;
+use super::findings::{Diagnostic, DiagnosticCode};
+use super::numeric::EPSILON;
+use super::numeric::scaled::Scaled;
+use super::scene::Component;
+
+/// One component's values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComponentColumn {
+    /// Which.
+    pub component: Component,
+    /// One a direction. Infinities and NaNs are each explained by a diagnostic.
+    pub values: Vec<f64>,
+    /// Their decimal logarithms, if asked for.
+    pub log10: Option<Vec<f64>>,
+}
+
+/// The columns while they are being filled.
+pub(super) struct Columns {
+    pub(super) total: Vec<f64>,
+    pub(super) log10_total: Option<Vec<f64>>,
+    pub(super) components: Vec<ComponentColumn>,
+    pub(super) relative_error_bound: Vec<f64>,
+    pub(super) diagnostics: Vec<Diagnostic>,
+}
+
+/// The total of one direction.
+pub(super) struct Total {
+    /// Before it was rounded to f64.
+    pub(super) exact: Scaled,
+    /// As answered.
+    pub(super) value: f64,
+    /// Bound of its relative error, what rounding to a subnormal adds left aside.
+    pub(super) relative_error: f64,
+}
+
+impl Columns {
+    /// Room for `count` directions.
+    pub(super) fn new(components: &[Component], count: usize, log10: bool) -> Self {
+        let column = || Vec::with_capacity(count);
+        Self {
+            total: column(),
+            log10_total: log10.then(column),
+            components: components
+                .iter()
+                .map(|&component| ComponentColumn { component, values: column(), log10: log10.then(column) })
+                .collect(),
+            relative_error_bound: column(),
+            diagnostics: Vec::new(),
+        }
+    }
+
+    /// Adds a direction; `estimates` by [`Component::index`].
+    pub(super) fn push(&mut self, index: usize, estimates: &[Option<Estimate>; 3]) -> Total {
+        let first_diagnostic = self.diagnostics.len();
+        let diagnostics = &mut self.diagnostics;
+        let mut total = Estimate::ZERO;
+        for column in &mut self.components {
+            // Every evaluated component has a value: the scene was checked for what it needs.
+            let Some(estimate) = estimates[column.component.index()] else { continue };
+            total = total.plus(estimate);
+            column.values.push(finite(estimate.value, index, first_diagnostic, diagnostics));
+            if let Some(log10) = &mut column.log10 {
+                log10.push(logarithm(estimate.value, index, first_diagnostic, diagnostics));
+            }
+        }
+        let value = finite(total.value, index, first_diagnostic, diagnostics);
+        if let Some(log10) = &mut self.log10_total {
+            log10.push(logarithm(total.value, index, first_diagnostic, diagnostics));
+        }
+        // Sums of three components and the rounding of the total itself.
+        let relative_error = total.relative_error() + if total.error.is_zero() { 0.0 } else { 4.0 * EPSILON };
+        let bound = relative_error + rounding_below_normal(total.value, value);
+        if !bound.is_finite() && total.value.is_finite() {
+            note(index, DiagnosticCode::NoErrorBound, first_diagnostic, diagnostics);
+        }
+        self.total.push(value);
+        self.relative_error_bound.push(bound);
+        Total { exact: total.value, value, relative_error }
+    }
+}
+
+/// What rounding to a subnormal or to 0 adds to the relative error; 1 where all is lost.
+fn rounding_below_normal(exact: Scaled, value: f64) -> f64 {
+    if value.abs() >= f64::MIN_POSITIVE || exact.is_zero() || !exact.is_finite() {
+        0.0
+    } else if value == 0.0 {
+        1.0
+    } else {
+        (Scaled::new(2f64.powi(-1074)) * 0.5 / exact).to_f64()
+    }
+}
+
+/// The f64 of a value, with a diagnostic where it has none.
+fn finite(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
+    let number = value.to_f64();
+    if !number.is_finite() {
+        let code = if value.is_nan() {
+            DiagnosticCode::UndefinedLimit
+        } else if value.is_finite() {
+            DiagnosticCode::Overflow
+        } else {
+            DiagnosticCode::GrazingDivergence
+        };
+        note(index, code, first, diagnostics);
+    }
+    number
+}
+
+/// The logarithm of a value, with a diagnostic where it has none.
+fn logarithm(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
+    if value.is_zero() {
+        note(index, DiagnosticCode::LogarithmOfZero, first, diagnostics);
+    }
+    value.log10()
+}
+
+/// Adds a diagnostic of this direction unless it is there already.
+fn note(index: usize, code: DiagnosticCode, first: usize, diagnostics: &mut Vec<Diagnostic>) {
+    if !diagnostics[first..].iter().any(|d| d.code == code) {
+        diagnostics.push(Diagnostic { index, code });
+    }
+}
