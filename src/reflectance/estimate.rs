@@ -63,11 +63,7 @@ impl Estimate {
             return self;
         }
         let value = self.value + other.value;
-        Self {
-            value,
-            error: self.error + other.error + value * EPSILON,
-            least: self.least + other.least,
-        }
+        Self { value, error: self.error + other.error + value * EPSILON, least: self.least + other.least }
     }
 
     /// error/least: 0 for an exact value, infinite where nothing is known to be there.

@@ -63,8 +63,11 @@ fn check(line: &Line<'_>, server: &Server) {
     // F′ is a factor of the lobe only.
     let log = |name| row.exact(name).log10();
     let share = |total| mixed([(log("specular_lobe"), fresnel), (total, 0.0)]);
-    let fresnel_of_total =
-        if row.output("diffuse_lobe").is_some() { share(log("diffuse_lobe")) } else { share(log("specular_spike")) };
+    let fresnel_of_total = if row.output("diffuse_lobe").is_some() {
+        share(log("diffuse_lobe"))
+    } else {
+        share(log("specular_spike"))
+    };
 
     let heights = match (number("/surface/rms_height_um"), number("/illumination/wavelength_um")) {
         (Some(height), Some(wavelength)) => Some(RelativeRoughness {
@@ -96,7 +99,8 @@ fn check(line: &Line<'_>, server: &Server) {
     body["accuracy"] = json!({});
     let auto = server.post("/v1/radiance", &body);
     bound_holds(line, "auto", &auto, "total");
-    let warned = auto["warnings"].as_array().is_some_and(|all| all.iter().any(|w| w["code"] == "tolerance_not_met"));
+    let warned =
+        auto["warnings"].as_array().is_some_and(|all| all.iter().any(|w| w["code"] == "tolerance_not_met"));
     if !(only(&auto, "relative_error_bound") <= 1e-9 || warned) {
         line.fail("total", "by auto keeps no tolerance and does not say so");
     }
@@ -136,7 +140,11 @@ fn fresnel_condition(body: &Value, geometry: &Geometry) -> f64 {
 fn bound_holds(line: &Line<'_>, method: &str, answer: &Value, total: &'static str) {
     let bound = &answer["relative_error_bound"][0];
     // Null: no bound below infinity is known, which the converged series may never say.
-    let bound = if bound.is_null() && !method.starts_with("series") { f64::INFINITY } else { bound.as_f64().unwrap_or(0.0) };
+    let bound = if bound.is_null() && !method.starts_with("series") {
+        f64::INFINITY
+    } else {
+        bound.as_f64().unwrap_or(0.0)
+    };
     let (value, log10) = with_log10(answer, "total");
     let error = relative_error(value, log10, &line.row.exact(total));
     if !(error <= bound) {
