@@ -6,18 +6,18 @@
 //!
 //! | equations | module |
 //! | --- | --- |
-//! | (1)-(3), (42)-(46), (51)-(56) | `radiometry` |
-//! | (4)-(9), (73) | `surface` |
-//! | (11), (12), (15), (30)-(32), (50) | `waves` |
+//! | (1)-(3), (42)-(46), (51)-(56) | [`reflectance::radiometry`] |
+//! | (4)-(9), (73) | [`reflectance::surface`] |
+//! | (11), (12), (15), (30)-(32), (50) | [`reflectance::waves`] |
 //! | (24), (25), (62)-(64) | [`reflectance::fresnel`] |
 //! | (28), (34), (36), (37), (59), (60), (76) | [`reflectance::geometry`] |
-//! | (33), (35), (38), (39), (47)-(49) | `beckmann_spizzichino` |
-//! | (41) | `fresnel_average` |
+//! | (33), (35), (38), (39), (47)-(49) | [`reflectance::beckmann_spizzichino`] |
+//! | (41) | [`reflectance::fresnel_average`] |
 //! | (57) | [`reflectance::lambertian`] |
 //! | (65) | [`reflectance::shadowing`] |
-//! | (58), (61), (66)-(72) | `torrance_sparrow` |
-//! | section 5.1 | `unified` |
-//! | (74), (80) | `image_irradiance` |
+//! | (58), (61), (66)-(72) | [`reflectance::torrance_sparrow`] |
+//! | section 5.1 | [`reflectance::unified`] |
+//! | (74), (80) | [`reflectance::image_irradiance`] |
 //! | (78), (79) | [`reflectance::roughness`] |
 
 #[cfg(feature = "server")]

@@ -2,7 +2,6 @@
 
 use super::estimate::Estimate;
 use super::findings::{Diagnostic, DiagnosticCode};
-use super::numeric::EPSILON;
 use super::numeric::scaled::Scaled;
 use super::scene::Component;
 
@@ -32,8 +31,8 @@ pub(super) struct Total {
     pub(super) exact: Scaled,
     /// As answered.
     pub(super) value: f64,
-    /// Bound of its relative error, what rounding to a subnormal adds left aside.
-    pub(super) relative_error: f64,
+    /// Bound of its relative error.
+    pub(super) relative_error_bound: f64,
 }
 
 impl Columns {
@@ -70,15 +69,13 @@ impl Columns {
         if let Some(log10) = &mut self.log10_total {
             log10.push(logarithm(total.value, index, first_diagnostic, diagnostics));
         }
-        // Sums of three components and the rounding of the total itself.
-        let relative_error = total.relative_error() + if total.error.is_zero() { 0.0 } else { 4.0 * EPSILON };
-        let bound = relative_error + rounding_below_normal(total.value, value);
+        let bound = total.relative_error() + rounding_below_normal(total.value, value);
         if !bound.is_finite() && total.value.is_finite() {
             note(index, DiagnosticCode::NoErrorBound, first_diagnostic, diagnostics);
         }
         self.total.push(value);
         self.relative_error_bound.push(bound);
-        Total { exact: total.value, value, relative_error }
+        Total { exact: total.value, value, relative_error_bound: bound }
     }
 }
 

@@ -1,6 +1,6 @@
 //! A value with an absolute error bound, both with exponents that cannot run out.
 
-use super::numeric::scaled::Scaled;
+use super::numeric::{EPSILON, scaled::Scaled};
 
 /// |exact − value| ≤ error and exact ≥ least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,14 +56,14 @@ impl Estimate {
         Self { value: self.value * factor, error: self.error * factor, least: self.least * factor }
     }
 
-    /// The sum; the bounds add.
+    /// The sum; the bounds add, and the rounding of the sum.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            error: self.error + other.error,
-            least: self.least + other.least,
+        if other.value.is_zero() && other.error.is_zero() {
+            return self;
         }
+        let value = self.value + other.value;
+        Self { value, error: self.error + other.error + value * EPSILON, least: self.least + other.least }
     }
 
     /// error/least: 0 for an exact value, infinite where nothing is known to be there.

@@ -128,10 +128,10 @@ impl<'a> Answer<'a> {
 
     fn push(&mut self, index: usize, reflection: &Reflection) {
         let total = self.columns.push(index, &reflection.components);
-        if total.relative_error > self.scene.parameters().accuracy.relative_tolerance.get()
+        if total.relative_error_bound > self.scene.parameters().accuracy.relative_tolerance.get()
             && total.exact.is_finite()
         {
-            self.tolerance.add(index, total.relative_error);
+            self.tolerance.add(index, total.relative_error_bound);
         }
         if total.value.abs() < f64::MIN_POSITIVE && !total.exact.is_zero() {
             self.underflow.add(index, 0.0);

@@ -15,6 +15,7 @@ mod figure_scenes;
 pub mod figures;
 pub mod findings;
 pub mod fresnel;
+pub mod fresnel_average;
 pub mod geometry;
 pub mod image_irradiance;
 mod kernel;

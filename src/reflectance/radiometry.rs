@@ -4,9 +4,7 @@
 //! Lengths in one unit, areas in its square; flux in W, irradiance in W m⁻², radiance in W m⁻² sr⁻¹, if lengths are in
 //! metres. Relative errors below 8 ε unless stated.
 
-use super::degrees::SinCos;
 use super::numeric::scaled::Scaled;
-use super::quantity::{Area, Length, OffAxis};
 use core::f64::consts::FRAC_PI_4;
 
 /// I_s of (1) and (56): flux per area of the surface.
@@ -38,12 +36,6 @@ pub fn emitted_flux(radiance: f64, area: f64, solid_angle: f64) -> f64 {
 /// d²Φ_i of (55): what a surface of this area receives from a solid angle of this radiance.
 pub fn received_flux(radiance: f64, solid_angle: f64, area: f64, cos_i: f64) -> f64 {
     radiance * solid_angle * area * cos_i
-}
-
-/// (z/f)² `dA_im` cos γ of (43), square micrometres: what a pixel sees of a plane that faces it.
-pub fn footprint(pixel_area: Area, distance: Length, focal_length: Length, off_axis: OffAxis) -> f64 {
-    let magnification = distance.get() / focal_length.get();
-    magnification * magnification * pixel_area.get() * SinCos::of_degrees(off_axis.get()).cos
 }
 
 /// The camera of figure 10.

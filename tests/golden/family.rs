@@ -128,11 +128,27 @@ impl Line<'_> {
         }
     }
 
-    /// A difference of two terms, judged by the size of the terms.
-    pub fn absolute(&self, output: &'static str, computed: f64, scale: f64) {
+    /// A value that the oracle leaves undefined and for which the core answers a limit.
+    pub fn instead_of_undefined(&self, output: &'static str, computed: f64, limit: f64) {
+        self.seen.borrow_mut().insert(output);
+        let right = self.row.output(output) == Some(Value::Undefined) && computed == limit;
+        self.add(output.to_owned(), computed, if right { 0.0 } else { f64::INFINITY });
+    }
+
+    /// A difference of two terms, judged by the size of the terms; `step` is forgiven.
+    pub fn absolute(&self, output: &'static str, computed: f64, scale: f64, step: f64) {
         self.seen.borrow_mut().insert(output);
         let exact = self.row.exact(output);
-        self.add(output.to_owned(), computed, measure::absolute_units(computed, &exact, scale));
+        self.add(output.to_owned(), computed, measure::absolute_units(computed, &exact, scale, step));
+    }
+
+    /// A number made of one that is subnormal: its last steps, `step` in this one, are forgiven.
+    pub fn stepped(&self, output: &'static str, computed: f64, cint: f64, step: f64) {
+        if measure::difference(computed, &self.row.exact(output)).abs() <= step {
+            self.absolute(output, computed, 0.0, step);
+        } else {
+            self.value(output, computed, cint);
+        }
     }
 
     /// A bound stated beside a value: |computed − exact| must not exceed it.

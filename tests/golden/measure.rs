@@ -44,10 +44,10 @@ pub fn log_units(computed: f64, exact: &Exact, cint: f64) -> f64 {
     (computed - log10).abs() / (EPSILON * (log10.abs() + 1.0 + cint / core::f64::consts::LN_10))
 }
 
-/// For a difference of two numbers that may cancel: C such that |computed − exact| = C ε scale.
-pub fn absolute_units(computed: f64, exact: &Exact, scale: f64) -> f64 {
-    let error = (difference(computed, exact).abs() - SMALLEST).max(0.0);
-    if error == 0.0 { 0.0 } else { error / (EPSILON * scale) }
+/// For a difference of two numbers that may cancel: C such that |computed − exact| = C ε scale + step.
+pub fn absolute_units(computed: f64, exact: &Exact, scale: f64, step: f64) -> f64 {
+    let error = difference(computed, exact).abs() - step.max(SMALLEST);
+    if error <= 0.0 { 0.0 } else { error / (EPSILON * scale) }
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn the_logarithm_of_an_underflow_is_judged_and_that_of_a_zero_is_minus_infinity(
 #[test]
 fn a_difference_is_judged_by_the_size_of_its_terms() {
     let exact = Exact::of(1e-12);
-    assert!((absolute_units(1e-12 + 10.0 * EPSILON, &exact, 1.0) - 10.0).abs() < 1e-3);
-    assert_eq!(absolute_units(1e-12, &exact, 0.0), 0.0);
-    assert_eq!(absolute_units(2e-12, &exact, 0.0), f64::INFINITY);
+    assert!((absolute_units(1e-12 + 10.0 * EPSILON, &exact, 1.0, 0.0) - 10.0).abs() < 1e-3);
+    assert_eq!(absolute_units(1e-12, &exact, 0.0, 0.0), 0.0);
+    assert_eq!(absolute_units(2e-12, &exact, 0.0, 0.0), f64::INFINITY);
 }

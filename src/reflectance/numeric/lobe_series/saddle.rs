@@ -62,7 +62,8 @@ mod tests {
             let x = 10f64.powi(exponent);
             for g in [1e-300, 1e-9, 0.3, 1.0, 50.0, 1e10] {
                 let w = lambert_w(g, x);
-                if w == 0.0 {
+                // A subnormal has too few digits to be asked for them; μ = g either way.
+                if w < f64::MIN_POSITIVE {
                     continue;
                 }
                 let ln_z = 2f64.ln() + x.ln() - 2.0 * g.ln();

@@ -15,31 +15,37 @@ use crate::reflectance::numeric::scaled::Scaled;
 const NEGLIGIBLE: f64 = 1.0 / (1u64 << 58) as f64;
 /// From this variance of the terms on, every h-th term is enough: the first terms are below e^{-60}.
 const STRIDED_FROM_VARIANCE: f64 = 64.0;
-/// From this μ on f64 cannot tell neighbouring terms apart, and c₁/μ of the expansion is below 1e-20.
-const CONTINUOUS_FROM: f64 = 1e20;
+/// From this μ w on, which is the size of the exponents, their rounding leaves the terms no digits to
+/// be summed with; μ is then above 1e10 and c₅/μ⁵ below 1e-47.
+const CONTINUOUS_FROM: f64 = 1e14;
 /// The authors' number of terms.
 const PAPER_TERMS: f64 = 100.0;
 
 /// Σ t_m/t_c with its first moments.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Moments {
+    g: f64,
     sum: f64,
-    /// Σ m t
+    /// Σ (m − g) t
     first: f64,
     /// Σ t/m
     inverse: f64,
 }
 
 impl Moments {
+    fn around(g: f64) -> Self {
+        Self { g, sum: 0.0, first: 0.0, inverse: 0.0 }
+    }
+
     fn add(&mut self, m: f64, t: f64) {
         self.sum += t;
-        self.first += m * t;
+        self.first += (m - self.g) * t;
         self.inverse += t / m;
     }
 
     /// The sum times the term it is relative to, and its conditions.
-    fn series(self, g: f64, x: f64, reference: Scaled, method: Method) -> LobeSeries {
-        let condition_g = (self.first / self.sum - g).abs();
+    fn series(self, x: f64, reference: Scaled, method: Method) -> LobeSeries {
+        let condition_g = (self.first / self.sum).abs();
         let condition_x = x * (self.inverse / self.sum);
         LobeSeries::converged(reference * self.sum, 0.0, condition_g, condition_x, method)
     }
@@ -47,16 +53,14 @@ impl Moments {
 
 /// S to full precision.
 pub(super) fn converged(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
-    if saddle.mu >= CONTINUOUS_FROM {
-        let (condition_g, condition_x) = uniform::conditions(g, x, saddle);
-        let value = uniform::leading_term(g, x, saddle);
-        LobeSeries::converged(value, 0.0, condition_g, condition_x, Method::Series)
+    if saddle.mu * saddle.w >= CONTINUOUS_FROM {
+        LobeSeries { method: Method::Series, ..uniform::order_four(g, x, saddle) }
     } else if saddle.variance() >= STRIDED_FROM_VARIANCE {
         strided(g, x, saddle)
     } else {
         let centre = saddle.mu.round().max(1.0);
         let moments = neighbours(g, x, centre, f64::INFINITY);
-        moments.series(g, x, term(centre, g, x), Method::Series)
+        moments.series(x, term(centre, g, x), Method::Series)
     }
 }
 
@@ -65,7 +69,7 @@ pub(super) fn first_hundred(g: f64, x: f64) -> LobeSeries {
     let saddle = Saddle::of(g, x);
     let centre = saddle.mu.round().clamp(1.0, PAPER_TERMS);
     let moments = neighbours(g, x, centre, PAPER_TERMS);
-    let partial = moments.series(g, x, term(centre, g, x), Method::Paper);
+    let partial = moments.series(x, term(centre, g, x), Method::Paper);
     let value = partial.estimate.value;
     // With the ratio from the 101st term on falling, the rest is at most t₁₀₁/(1 − ratio).
     let next = PAPER_TERMS + 1.0;
@@ -94,7 +98,7 @@ fn tilted(g: f64, tilt: f64) -> f64 {
 
 /// All terms that matter on both sides of `centre`, up to `last`, relative to the one at `centre`.
 fn neighbours(g: f64, x: f64, centre: f64, last: f64) -> Moments {
-    let mut moments = Moments::default();
+    let mut moments = Moments::around(g);
     moments.add(centre, 1.0);
     let (mut m, mut t) = (centre, 1.0);
     let mut matters = true;
@@ -124,7 +128,7 @@ fn strided(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     let centre = (saddle.mu / stride).round() * stride;
     let exponent_at_centre = exponent(centre, g, x);
     let weight = |m: f64| libm::exp(exponent_at_centre - exponent(m, g, x)) / (m * m.sqrt());
-    let mut moments = Moments::default();
+    let mut moments = Moments::around(g);
     moments.add(centre, weight(centre));
     let mut m = centre;
     let mut matters = true;
@@ -143,7 +147,7 @@ fn strided(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
         matters = t >= NEGLIGIBLE * moments.sum;
     }
     let scale = stride / (2.0 * core::f64::consts::PI).sqrt();
-    moments.series(g, x, Scaled::exp(-exponent_at_centre) * scale, Method::Series)
+    moments.series(x, Scaled::exp(-exponent_at_centre) * scale, Method::Series)
 }
 
 /// One term, e^{-g} g^m/(m! m) e^{-x/m}.
@@ -199,7 +203,7 @@ fn stirling_remainder(m: f64) -> f64 {
         0.011_896_709_945_891_77,
         0.010_411_265_261_972_096,
         0.009_255_462_182_712_733,
-        0.008_330_563_433_362_871,
+        0.008_330_563_433_362_87,
         0.007_573_675_487_951_841,
         0.006_942_840_107_209_53,
         0.006_408_994_188_004_207,

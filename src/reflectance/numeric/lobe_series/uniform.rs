@@ -74,15 +74,25 @@ pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     }
 }
 
-/// |∂ ln S/∂ ln g| and |∂ ln S/∂ ln x| at the saddle.
-pub(super) fn conditions(g: f64, x: f64, saddle: &Saddle) -> (f64, f64) {
-    ((saddle.mu - g).abs().max(1.0), x / saddle.mu)
+/// |∂ ln S/∂ ln g| and |∂ ln S/∂ ln x| of the leading term: with ∂u/∂ ln g = −2u/w and
+/// ∂u/∂ ln x = u/w, the exponent adds μ − g and −x/μ, the rest what follows.
+fn conditions(g: f64, x: f64, &Saddle { u, mu, w }: &Saddle) -> (f64, f64) {
+    // μ − g cancels for small u; g expm1(u) does not, but overflows where g is tiny.
+    let shift = if u < 1.0 { g * libm::expm1(u) } else { mu - g };
+    ((shift - 1.0 / w + 2.0 * u / (w * w)).abs(), x / mu + u / w + u / (w * w))
 }
 
 /// e^ψ/(μ √w).
 pub(super) fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
     let Saddle { u, mu, w } = *saddle;
-    // With 2u μ = 2x/μ the exponent is μ − g − 2x/μ; for small u the difference μ − g is g expm1(u).
-    let psi = if u < 0.5 { g * (libm::expm1(u) - 2.0 * u * libm::exp(u)) } else { mu - g - 2.0 * (x / mu) };
+    // For small u in a form that does not cancel. For large u stationary in μ: with 2x/μ in place of
+    // μ ln(μ/g) + x/μ, the rounding of μ would come back w times as large.
+    let psi = if u < 0.5 {
+        g * (libm::expm1(u) - 2.0 * u * libm::exp(u))
+    } else {
+        // Beyond u = 600 the quotient may overflow.
+        let ln_ratio = if u < 600.0 { libm::log(mu / g) } else { libm::log(mu) - libm::log(g) };
+        (mu - g) - mu * ln_ratio - x / mu
+    };
     Scaled::exp(psi) * Scaled::new(1.0 / (mu * w.sqrt()))
 }
