@@ -309,7 +309,7 @@ fn queries_are_checked_as_bodies_are() {
         ),
         (
             "/v1/diagrams?model=lambertian&sweep=theta_r_deg&from_deg=0&to_deg=90&step_deg=1e-6&at_deg=1&parallel=0.4&perpendicular=0.4",
-            vec![("/parallel", "inconsistent"), ("/points", "too_many")],
+            vec![("/parallel", "inconsistent"), ("/step_deg", "too_many")],
         ),
     ] {
         let document = problem(server.get(link), 422);

@@ -114,7 +114,8 @@ fn logarithms_hold_where_the_value_underflows() {
     // (47) at normal incidence: footprint/λ² e^{-g}.
     let expected = (1e6f64 / 0.25).log10() - g * std::f64::consts::LOG10_E;
     assert!((log10 / expected - 1.0).abs() < 16.0 * f64::EPSILON, "{log10} {expected}");
-    assert_eq!(answer["warnings"][0]["code"], "underflow");
+    let warnings = answer["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|warning| warning["code"] == "underflow"), "{answer}");
 }
 
 #[test]

@@ -248,8 +248,8 @@ impl LinearAnswer {
 }
 
 /// Either answer.
-#[derive(ToSchema)]
-#[expect(dead_code, reason = "only its schema is used: the handler writes one or the other")]
+#[derive(Serialize, ToSchema)]
+#[serde(untagged)]
 pub(crate) enum ImageAnswer {
     /// Of a camera.
     #[schema(title = "Camera")]
@@ -288,11 +288,13 @@ pub(crate) async fn image_irradiance(
             let output = OutputWire::chosen(request.output);
             let answer =
                 Answer::new(quantity, evaluate(&request.scene.0, &request.geometry.0, quantity, output));
-            json::response(&answer, answer.size_hint())
+            let size_hint = answer.size_hint();
+            json::response(&ImageAnswer::Camera(answer), size_hint)
         }
         ImageRequest::Linear { scene, directions, log10 } => {
             let answer = LinearAnswer::new(scene.evaluate(&directions, log10));
-            json::response(&answer, answer.size_hint())
+            let size_hint = answer.size_hint();
+            json::response(&ImageAnswer::Linear(answer), size_hint)
         }
     })
     .await?

@@ -98,8 +98,10 @@ impl WireObject for CheckedSweep {
         match Sweep::new(wire.sweep, ends, division, at, phi_r) {
             Ok(sweep) => Some(Self(sweep)),
             Err(errors) => {
+                // What the number of points follows from.
+                let points = if wire.points.is_some() { "points" } else { "step_deg" };
                 for error in &errors {
-                    note(error, reader);
+                    note(error, points, reader);
                 }
                 None
             }
@@ -124,7 +126,7 @@ impl WireObject for CheckedSweep {
 }
 
 /// Notes what the core found at the field that a client knows.
-fn note(error: &DiagramError, reader: &mut Reader) {
+fn note(error: &DiagramError, points_field: &'static str, reader: &mut Reader) {
     let (field, code, detail) = match error {
         DiagramError::From(error) => ("from_deg", Code::OutOfRange, error.to_string()),
         DiagramError::To(error) => ("to_deg", Code::OutOfRange, error.to_string()),
@@ -136,7 +138,8 @@ fn note(error: &DiagramError, reader: &mut Reader) {
             let detail = format!(
                 "a sweep of {points} points: expected from 1 to {MAX_SWEEP_POINTS}, and at least 2 unless it has no length"
             );
-            ("points", Code::OutOfRange, detail)
+            let code = if *points > MAX_SWEEP_POINTS { Code::TooMany } else { Code::OutOfRange };
+            (points_field, code, detail)
         }
         DiagramError::At { position, error } => {
             return reader.within("at_deg", |reader| {
@@ -149,7 +152,7 @@ fn note(error: &DiagramError, reader: &mut Reader) {
         DiagramError::TooManyRows { rows } => {
             let detail =
                 format!("points times fixed angles is {rows}: at most {MAX_DIRECTIONS} are answered at once");
-            ("points", Code::TooMany, detail)
+            (points_field, Code::TooMany, detail)
         }
     };
     reader.within(field, |reader| reader.error(code, detail));
