@@ -24,7 +24,7 @@ impl Estimate {
 
     /// A value known within a factor e^{±`log_error`}; for a small one that is the relative error.
     pub fn within(value: Scaled, log_error: f64) -> Self {
-        Self { value, error: value.spread(log_error), least: value * Scaled::exp(-log_error) }
+        Self { value, error: value.spread(log_error), least: value.lowered(log_error) }
     }
 
     /// Allows for what changes the exact value by a factor e^{±`log_error`} at most.
@@ -33,7 +33,7 @@ impl Estimate {
         Self {
             value: self.value,
             error: self.error + (self.value + self.error).spread(log_error),
-            least: self.least * Scaled::exp(-log_error),
+            least: self.least.lowered(log_error),
         }
     }
 

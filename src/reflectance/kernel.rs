@@ -3,7 +3,7 @@
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::estimate::Estimate;
-use super::fresnel::{Energy, Medium, Polarization};
+use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
 use super::lambertian;
 use super::numeric::EPSILON;
@@ -150,7 +150,12 @@ impl<'a> Kernel<'a> {
     pub(super) fn reflect(&self, geometry: &Geometry) -> Reflection {
         let mut components = [None; 3];
         let mut evaluated_by = EvaluatedBy::ClosedForm;
-        let reflectance = self.medium.reflectance(geometry.local_incidence(), self.polarization);
+        let reflectance = match self.medium {
+            Medium::PerfectConductor => None,
+            Medium::Index(_) => {
+                Some(self.medium.reflectance(geometry.local_incidence(), self.polarization).into())
+            }
+        };
         for &component in self.scene.evaluated() {
             let value = match component {
                 Component::DiffuseLobe => Some(self.diffuse_lobe(geometry)),
@@ -191,7 +196,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// (70), times 1 − e^{-g} where it shares the energy with a spike.
-    fn facet_lobe(&self, geometry: &Geometry, reflectance: Energy) -> Option<Estimate> {
+    fn facet_lobe(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
         let lobe = self.facets?.lobe(geometry, self.shadowing_over_cosines(geometry));
         let surface = &self.scene.parameters().surface;
         let shares = self.scene.parameters().model == Model::Unified && surface.specular_scale.is_none();
@@ -205,7 +210,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.
-    fn spike(&self, geometry: &Geometry, reflectance: Energy) -> Option<Estimate> {
+    fn spike(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
         let patch = self.view?.patch(geometry);
         let power = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => geometry.cos_i * geometry.cos_i,
@@ -215,8 +220,8 @@ impl<'a> Kernel<'a> {
     }
 
     /// (41) and (71): F′ at the half vector; and the irradiance where a radiance is asked for.
-    fn with_reflectance(&self, lobe: Estimate, reflectance: Energy) -> Estimate {
-        let reflected = lobe.times(reflectance.into());
+    fn with_reflectance(&self, lobe: Estimate, reflectance: Option<Estimate>) -> Estimate {
+        let reflected = reflectance.map_or(lobe, |reflectance| lobe.times(reflectance));
         match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
                 reflected.scaled_by(Scaled::new(self.irradiance))

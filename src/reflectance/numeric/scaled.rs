@@ -83,11 +83,21 @@ impl Scaled {
     pub fn spread(self, log_error: f64) -> Self {
         if self.is_zero() {
             self
+        } else if log_error < 1e-3 {
+            // e^d − 1 < d + d²/2 · 1.001
+            self * (log_error * (1.0 + log_error))
         } else if log_error < 1.0 {
             self * libm::expm1(log_error)
         } else {
             self * Self::exp(log_error)
         }
+    }
+
+    /// self · e^{−`log_error`}, or less: the least that a value known within a factor can be.
+    #[must_use]
+    pub fn lowered(self, log_error: f64) -> Self {
+        // e^{−d} > 1 − d
+        if log_error < 1e-3 { self * (1.0 - log_error) } else { self * Self::exp(-log_error) }
     }
 
     /// |self − other|.
