@@ -8,4 +8,5 @@ mod examples;
 mod properties;
 mod protocol;
 mod radiance;
+mod readme;
 mod server;

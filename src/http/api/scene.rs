@@ -155,7 +155,7 @@ object! {
         /// How the lobe series is evaluated: `series` sums to convergence, `paper` the first 100 terms as the
         /// authors did, `uniform` is a saddle-point expansion, `smooth` is (48) corrected, `rough` is (49). A named
         /// method is used as asked, with its true error bound; `auto` (when absent or null) takes the cheapest
-        /// whose bound keeps the tolerance.
+        /// that is as accurate as 64-bit floats allow.
         method: Option<Method>,
     }
 }
@@ -168,8 +168,8 @@ object! {
         model: Model,
         /// The surface.
         surface: SurfaceWire,
-        /// The light.
-        illumination: IlluminationWire,
+        /// The light: a unit beam when absent or null. The height models need its wavelength.
+        illumination: Option<IlluminationWire>,
         /// The sensor; only the specular spike needs it.
         sensor: Option<Sensor>,
         /// Which components: `auto` (when absent or null) or a list of names.
@@ -182,6 +182,8 @@ object! {
 impl SceneWire {
     fn into_parameters(self) -> Option<SceneParameters> {
         let Self { model, surface, illumination, sensor, components, accuracy } = self;
+        let (wavelength, irradiance, polarization) = illumination
+            .map_or((None, None, None), |light| (light.wavelength_um, light.irradiance, light.polarization));
         let (tolerance, method) = accuracy.map_or((None, None), |a| (a.relative_tolerance, a.method));
         Some(SceneParameters {
             model,
@@ -195,9 +197,9 @@ impl SceneWire {
                 shadowing: surface.shadowing,
             },
             illumination: scene::Illumination {
-                wavelength: illumination.wavelength_um,
-                irradiance: illumination.irradiance.or_else(|| Irradiance::new(1.0).ok())?,
-                polarization: illumination.polarization.unwrap_or_else(Polarization::unpolarized),
+                wavelength,
+                irradiance: irradiance.or_else(|| Irradiance::new(1.0).ok())?,
+                polarization: polarization.unwrap_or_else(Polarization::unpolarized),
             },
             sensor,
             components: components.unwrap_or(Components::Auto),
