@@ -23,6 +23,9 @@ until grep -q '^Try:' "$said"; do
 done
 url=$(sed -n 's|.* on \(http://[^/ ]*\).*|\1|p' "$said")
 
-timeout 180 "$venv/bin/schemathesis" --config-file scripts/schemathesis.toml run "$url/openapi.json" \
+# From there, so that the tool keeps its notes under target/ too.
+config=$PWD/scripts/schemathesis.toml
+cd "$venv"
+timeout 180 ./bin/schemathesis --config-file "$config" run "$url/openapi.json" \
     --checks all --max-time "$SECONDS_AT_MOST"
 kill -0 $server
