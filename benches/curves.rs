@@ -6,7 +6,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use reflectance::reflectance::diagram::{Division, Sweep, SweepAxis};
-use reflectance::reflectance::evaluate::Quantity;
+use reflectance::reflectance::evaluate::{Output, Quantity};
 use reflectance::reflectance::figures;
 use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::quantity::{Azimuth, Quantity as _};
@@ -32,7 +32,9 @@ fn curves(criterion: &mut Criterion) {
         for method in [Method::Auto, Method::Series, Method::Paper, Method::Uniform, Method::Smooth] {
             let scene = by(&scene, method);
             group.bench_function(method.name(), |bencher| {
-                bencher.iter(|| black_box(&sweep).evaluate(black_box(&scene), Quantity::Radiance, false, ""));
+                bencher.iter(|| {
+                    black_box(&sweep).evaluate(black_box(&scene), Quantity::Radiance, Output::default(), "")
+                });
             });
         }
         group.finish();

@@ -4,7 +4,7 @@ use clap::Parser as _;
 use clap::error::ErrorKind;
 use reflectance::config::{Cli, Command, Config, LogFormat};
 use reflectance::http;
-use std::io::Write as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
 use tokio::net::TcpListener;
 
@@ -31,7 +31,10 @@ fn main() -> ExitCode {
 
 #[tokio::main]
 async fn serve(config: &Config) -> ExitCode {
-    let logs = tracing_subscriber::fmt().with_max_level(config.log_level).with_writer(std::io::stderr);
+    let logs = tracing_subscriber::fmt()
+        .with_max_level(config.log_level)
+        .with_ansi(std::io::stderr().is_terminal())
+        .with_writer(std::io::stderr);
     match config.log_format {
         LogFormat::Human => logs.with_target(false).init(),
         LogFormat::Json => logs.json().flatten_event(true).with_target(false).init(),

@@ -183,10 +183,9 @@ impl Sweep {
         &self,
         scene: &Scene,
         quantity: Quantity,
-        log10: bool,
+        output: Output,
         label: &str,
     ) -> Result<Table, OutOfBounds> {
-        let output = Output { log10, per_direction: false };
         let mut curves = Vec::with_capacity(self.at.len());
         for &at in &self.at {
             let evaluation = evaluate(scene, &self.directions(at)?, quantity, output);

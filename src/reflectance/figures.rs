@@ -4,7 +4,7 @@
 //! irradiance 1; and for Torrance-Sparrow c·a_f = 1, F = 1 and G = 1, as the text assumes.
 
 use super::diagram::{Sweep, SweepAxis};
-use super::evaluate::Quantity;
+use super::evaluate::{Output, Quantity};
 use super::figure_scenes::{beckmann_spizzichino, components_of_section_5, torrance_sparrow};
 use super::fresnel::{Medium, RefractiveIndex};
 use super::geometry::Geometry;
@@ -263,7 +263,12 @@ fn panel(
     sweep: &Result<Sweep, OutOfBounds>,
     log10: bool,
 ) -> Result<Panel, OutOfBounds> {
-    let table = sweep.as_ref().map_err(|e| *e)?.evaluate(&scene, Quantity::Radiance, log10, label)?;
+    let table = sweep.as_ref().map_err(|e| *e)?.evaluate(
+        &scene,
+        Quantity::Radiance,
+        Output { log10, per_direction: false },
+        label,
+    )?;
     Ok(Panel { label, scene: Some(scene), table })
 }
 

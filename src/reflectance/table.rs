@@ -21,8 +21,10 @@ pub struct Curve {
     pub label: String,
     /// The fixed angle, degrees.
     pub at_deg: Option<f64>,
-    /// The total first, its components, their logarithms, the error bound last.
+    /// The total first, its components, their logarithms, the error bound, and g if asked for.
     pub columns: Vec<Column>,
+    /// What evaluated each point, if asked for.
+    pub method: Option<Vec<EvaluatedBy>>,
     /// How many points each method evaluated.
     pub methods: Vec<(EvaluatedBy, usize)>,
     /// Components left out, and why.
@@ -70,10 +72,14 @@ impl Curve {
             unit: "",
             values: evaluation.relative_error_bound,
         });
+        if let Some(values) = evaluation.roughness_g {
+            columns.push(Column { name: "roughness_g", unit: "", values });
+        }
         Self {
             label,
             at_deg: Some(at_deg),
             columns,
+            method: evaluation.method,
             methods: evaluation.methods,
             omitted: evaluation.omitted,
             warnings: evaluation.warnings,
@@ -87,6 +93,7 @@ impl Curve {
             label,
             at_deg,
             columns: vec![column],
+            method: None,
             methods: Vec::new(),
             omitted: Vec::new(),
             warnings: Vec::new(),

@@ -79,6 +79,22 @@ fn every_parameter_of_a_link_reaches_the_scene() {
 }
 
 #[test]
+fn each_point_says_how_it_was_evaluated_if_asked() {
+    let server = Server::start();
+    let link = "/v1/diagrams?model=beckmann_spizzichino&rms_height_um=0.2&correlation_length_um=4&wavelength_um=0.5\
+        &sweep=theta_r_deg&from_deg=0&to_deg=10&step_deg=5&at_deg=10&per_direction=true&method=rough";
+    let diagram: Value = server.get(link).json().unwrap();
+    let series = &diagram["series"][0];
+    assert_eq!(series["method"], json!(["rough", "rough", "rough"]));
+    assert_eq!(series["methods"], json!({"rough": 3}));
+    let (header, rows) = csv(&server, link);
+    assert!(header.ends_with("relative_error_bound,roughness_g,method"), "{header}");
+    for (row, g) in rows.iter().zip(series["roughness_g"].as_array().unwrap()) {
+        assert_eq!(row[row.len() - 2..], [g.to_string(), "rough".to_owned()]);
+    }
+}
+
+#[test]
 fn a_link_is_answered_once() {
     let server = Server::start();
     for path in [LINK, "/v1/figures", "/v1/figures/20b"] {

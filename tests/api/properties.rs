@@ -161,10 +161,10 @@ fn check(request: &Value, answer: &Map<String, Value>) -> Result<(), TestCaseErr
         for (index, value) in column.iter().enumerate() {
             match value.as_f64() {
                 Some(value) => {
-                    prop_assert!(value >= 0.0 || name.starts_with("log10_"), "{name}[{index}] = {value}")
+                    prop_assert!(value >= 0.0 || name.starts_with("log10_"), "{name}[{index}] = {value}");
                 }
                 None => {
-                    prop_assert!(value.is_null() && explained.contains(&index), "{name}[{index}] = {value}")
+                    prop_assert!(value.is_null() && explained.contains(&index), "{name}[{index}] = {value}");
                 }
             }
         }

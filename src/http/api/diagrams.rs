@@ -1,5 +1,6 @@
 //! `GET` and `POST /v1/diagrams`: a sweep over one zenith angle at several fixed ones.
 
+use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
@@ -23,20 +24,12 @@ named! {
 }
 
 object! {
-    /// What to add to a diagram.
-    DiagramOutput as "DiagramOutput" {
-        /// Adds the decimal logarithm of every value. False when absent or null.
-        log10: Option<bool>,
-    }
-}
-
-object! {
     /// A scene, and a sweep through its directions.
     DiagramRequest as "DiagramRequest" {
         /// `radiance` (when absent or null) or `brdf`.
         quantity: Option<Quantity>,
         /// What to add.
-        output: Option<DiagramOutput>,
+        output: Option<OutputWire>,
         ..sweep: CheckedSweep,
         ..scene: CheckedScene,
     }
@@ -96,9 +89,9 @@ pub(crate) async fn diagram(
 async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Result<Vec<u8>, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
     let quantity = quantity.unwrap_or(Quantity::Radiance);
-    let log10 = output.and_then(|output| output.log10).unwrap_or(false);
+    let output = OutputWire::chosen(output);
     compute::run(deadline, sweep.rows(), move || {
-        let table = sweep.evaluate(&scene, quantity, log10, "").map_err(|error| {
+        let table = sweep.evaluate(&scene, quantity, output, "").map_err(|error| {
             tracing::error!(%error, "a checked sweep left its range");
             Problem::internal()
         })?;

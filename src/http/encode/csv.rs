@@ -35,6 +35,9 @@ fn rows(tables: &[Table], labelled: bool) -> Result<Vec<u8>, csv::Error> {
                 for values in &present {
                     number(&mut writer, &mut digits, values.and_then(|values| values.get(row).copied()))?;
                 }
+                if let Some(method) = &curve.method {
+                    writer.write_field(method.get(row).map_or("", |method| method.name()))?;
+                }
                 writer.write_record(None::<&[u8]>)?;
             }
         }
@@ -74,6 +77,9 @@ fn write_header(
     for (name, unit) in columns {
         let unit = unit.replace(' ', "_").replace('^', "");
         writer.write_field(if unit.is_empty() { (*name).to_owned() } else { format!("{name}_{unit}") })?;
+    }
+    if tables.iter().flat_map(|table| &table.curves).any(|curve| curve.method.is_some()) {
+        writer.write_field("method")?;
     }
     writer.write_record(None::<&[u8]>)
 }

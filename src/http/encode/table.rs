@@ -1,6 +1,7 @@
 //! Tables as JSON: an axis, and one series a curve.
 
 use crate::http::api::answer::{DiagnosticAnswer, OmittedAnswer, WarningAnswer};
+use crate::reflectance::evaluate::EvaluatedBy;
 use crate::reflectance::table::{Curve, Table};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -62,6 +63,7 @@ pub(crate) struct Series {
     label: Option<String>,
     at_deg: Option<f64>,
     columns: Vec<(&'static str, Numbers)>,
+    method: Option<Vec<&'static str>>,
     methods: BTreeMap<&'static str, usize>,
     omitted: Vec<OmittedAnswer>,
     warnings: Vec<WarningAnswer>,
@@ -94,6 +96,7 @@ impl Series {
             label: labelled.then_some(curve.label),
             at_deg: curve.at_deg,
             columns: curve.columns.into_iter().map(|column| (column.name, Numbers(column.values))).collect(),
+            method: curve.method.map(|method| method.into_iter().map(EvaluatedBy::name).collect()),
             methods: curve.methods.into_iter().map(|(method, count)| (method.name(), count)).collect(),
             omitted: curve.omitted.into_iter().map(OmittedAnswer::from).collect(),
             warnings: curve.warnings.into_iter().map(WarningAnswer::from).collect(),
@@ -114,6 +117,9 @@ impl Serialize for Series {
         for (name, column) in &self.columns {
             map.serialize_entry(name, column)?;
         }
+        if let Some(method) = &self.method {
+            map.serialize_entry("method", method)?;
+        }
         map.serialize_entry("methods", &self.methods)?;
         map.serialize_entry("omitted", &self.omitted)?;
         map.serialize_entry("warnings", &self.warnings)?;
@@ -123,7 +129,7 @@ impl Serialize for Series {
 }
 
 /// Columns that a series may have.
-const COLUMNS: [(&str, &str); 11] = [
+const COLUMNS: [(&str, &str); 12] = [
     ("total", "The sum of the components."),
     ("diffuse_lobe", "(57)"),
     ("specular_lobe", "The second term of (47), or (70)."),
@@ -133,6 +139,7 @@ const COLUMNS: [(&str, &str); 11] = [
     ("log10_specular_lobe", "Decimal logarithm of `specular_lobe`."),
     ("log10_specular_spike", "Decimal logarithm of `specular_spike`."),
     ("relative_error_bound", "Bound of the relative error of `total`."),
+    ("roughness_g", "g of (34), if `output.per_direction` asks for it."),
     ("fresnel_reflectance", "F′ of (63), figure 18 only."),
     ("geometrical_attenuation", "G of (65), figure 19 only."),
 ];
@@ -163,7 +170,11 @@ impl PartialSchema for Series {
             .additional_properties(Some(AdditionalProperties::<Schema>::RefOr(
                 ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(1)).into(),
             )));
+        let names = utoipa::openapi::ArrayBuilder::new()
+            .items(ObjectBuilder::new().schema_type(Type::String))
+            .description(Some("The method of each point, if `output.per_direction` asks for it."));
         object
+            .property("method", names)
             .property("methods", counts)
             .property("omitted", list("Omitted", "Components left out."))
             .property("warnings", list("Warning", "What the scene strains."))

@@ -8,6 +8,9 @@ use crate::http::problem::{Kind, Problem};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 
+/// Ten times the parameters there are, with a hundred fixed angles one by one.
+const MOST_PARAMETERS: usize = 512;
+
 /// A value read from the query.
 pub(crate) struct Query<T>(pub(crate) T);
 
@@ -43,6 +46,10 @@ fn read<T: WireObject>(query: &str) -> Result<T, Problem> {
 /// Names and values; a name given several times has an array of texts.
 fn object(query: &str) -> Result<Object, Problem> {
     let mut object = Object::default();
+    if query.split('&').count() > MOST_PARAMETERS {
+        let detail = format!("the query has more than {MOST_PARAMETERS} parameters");
+        return Err(Problem::new(Kind::MalformedQuery, detail));
+    }
     for pair in query.split('&').filter(|pair| !pair.is_empty()) {
         let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
         let (name, value) = (decode(name)?, Node::Text(decode(value)?));

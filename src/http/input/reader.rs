@@ -180,7 +180,7 @@ impl Fields {
     /// Refuses what is left, and what was given twice.
     pub(crate) fn finish(self, reader: &mut Reader, accepted: &[&str]) {
         for name in self.object.duplicates {
-            reader.within(name, |reader| reader.error(Code::Duplicate, "given more than once"));
+            reader.within(excerpt(&name), |reader| reader.error(Code::Duplicate, "given more than once"));
         }
         for (name, _) in self.object.fields {
             let accepted = if accepted.is_empty() { "none".to_owned() } else { accepted.join(", ") };
