@@ -22,7 +22,7 @@ fn alive_and_ready() {
 #[test]
 fn unknown_paths_are_problems() {
     let server = Server::start();
-    for path in ["/", "/v1", "/v1/radiance/", "/v2/radiance", "/docs/nothing.js", "/%ff", "/v1/figures/99z"] {
+    for path in ["/v1", "/v1/radiance/", "/v2/radiance", "/docs/nothing.js", "/%ff", "/v1/figures/99z"] {
         problem(server.get(path), 404);
     }
 }
@@ -103,6 +103,26 @@ fn a_body_beyond_the_limit_is_refused_with_the_limit() {
     // The same without a Content-Length to tell it beforehand.
     let chunked = reqwest::blocking::Body::new(std::io::Cursor::new(padded(3000)));
     problem(server.post("/v1/radiance", chunked), 413);
+}
+
+#[test]
+fn a_client_that_sends_before_it_listens_gets_its_answer() {
+    let server = Server::with(&["--body-limit-bytes", "4000000"]);
+    let mut stream = TcpStream::connect(server.address()).unwrap();
+    let length = 10_000_000;
+    write!(stream, "POST /v1/radiance HTTP/1.1\r\nhost: t\r\nconnection: close\r\n").unwrap();
+    write!(stream, "content-type: application/json\r\ncontent-length: {length}\r\n\r\n").unwrap();
+    stream.write_all(&vec![b' '; length]).unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 413 "), "{answer}");
+}
+
+#[test]
+fn the_root_leads_to_the_reference() {
+    let server = Server::start();
+    let response = server.get("/");
+    assert_eq!((response.status().as_u16(), response.url().path()), (200, "/docs/"));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! `UPDATE_ACCURACY=1 cargo test --test golden` rewrites it.
 
 use crate::family::{GATE, Measured};
+use crate::measure::exceeds;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -42,8 +43,10 @@ fn committed(text: &str) -> BTreeMap<(String, String), (usize, f64)> {
     let rows = text.lines().filter(|line| line.starts_with('|')).skip(2);
     rows.map(|line| {
         let cells: Vec<_> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let number = |cell: &str| cell.parse().expect("number");
-        ((cells[0].to_owned(), cells[1].to_owned()), (number(cells[2]) as usize, number(cells[3])))
+        (
+            (cells[0].to_owned(), cells[1].to_owned()),
+            (cells[2].parse().expect("count"), cells[3].parse().expect("units")),
+        )
     })
     .collect()
 }
@@ -62,7 +65,7 @@ fn differences(families: &[&Measured], text: &str) -> Vec<String> {
             if count != worst.count {
                 found.push(format!("{name}: {} values, the table says {count}", worst.count));
             }
-            if !(worst.units <= units) {
+            if exceeds(worst.units, units) {
                 found
                     .push(format!("{name}: {} units at {}, the table says {units}", worst.units, worst.line));
             }
@@ -78,7 +81,7 @@ fn differences(families: &[&Measured], text: &str) -> Vec<String> {
 }
 
 /// Compares with, or rewrites, the part of docs/accuracy.md between the two marks.
-pub fn hold(families: &[&Measured]) {
+pub(crate) fn hold(families: &[&Measured]) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy.md");
     let document = std::fs::read_to_string(&path).expect("docs/accuracy.md");
     let (before, rest) = document.split_once(BEGIN).expect("begin mark");

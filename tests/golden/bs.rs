@@ -12,7 +12,7 @@ use reflectance::reflectance::waves::{SmoothPlate, wavenumber};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("bs", &Table::parse(include_str!("data/bs.tsv")), check));
 
 /// |a cot a − 1|, the condition of sinc.
@@ -27,7 +27,7 @@ fn along_terms(row: &Row<'_>) -> (f64, f64) {
 }
 
 /// Condition of ρ_o with respect to the rounding of its two phases.
-pub fn rho_condition(row: &Row<'_>, k: f64) -> f64 {
+pub(crate) fn rho_condition(row: &Row<'_>, k: f64) -> f64 {
     let (front, back) = along_terms(row);
     let sum = front + back;
     let cancellation = if sum == 0.0 { 0.0 } else { (front.abs() + back.abs()) / sum.abs() };
@@ -36,7 +36,7 @@ pub fn rho_condition(row: &Row<'_>, k: f64) -> f64 {
 }
 
 /// The condition of a sum of positive parts: each weighted by its share, from (decimal logarithm, condition).
-pub fn mixed(parts: [(f64, f64); 2]) -> f64 {
+pub(crate) fn mixed(parts: [(f64, f64); 2]) -> f64 {
     let [(a, cint_a), (b, cint_b)] = parts;
     let share = if a == b { 0.5 } else { 1.0 / (1.0 + 10f64.powf(b - a)) };
     let weighted = |share: f64, cint: f64| if share == 0.0 { 0.0 } else { share * cint };

@@ -7,17 +7,17 @@ use reflectance::reflectance::degrees::SinCos;
 
 /// |∂ ln F/∂ ln cos| + |∂ ln F/∂ ln sin| of the fields (24), (25) and of their energies (62).
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Fresnel {
-    pub field_parallel: f64,
-    pub field_perpendicular: f64,
-    pub energy_parallel: f64,
-    pub energy_perpendicular: f64,
+pub(crate) struct Fresnel {
+    pub(crate) field_parallel: f64,
+    pub(crate) field_perpendicular: f64,
+    pub(crate) energy_parallel: f64,
+    pub(crate) energy_perpendicular: f64,
 }
 
 impl Fresnel {
     /// F_perp = (1 − Y²)/(c + root)² and F_para = (Y² − 1)(Y²c² − s²)/(Y²c + root)², root = √(Y² − s²),
     /// differentiated.
-    pub fn of(n: f64, k: f64, cos: f64, sin: f64) -> Self {
+    pub(crate) fn of(n: f64, k: f64, cos: f64, sin: f64) -> Self {
         let y2 = Complex64::new((n - k) * (n + k), -2.0 * n * k);
         let root2 = Complex64::new((n - sin) * (n + sin) - k * k, -2.0 * n * k);
         // At the critical angle, and at Brewster's, what rounding leaves of a difference limits the field, not 0.
@@ -48,7 +48,7 @@ impl Fresnel {
 }
 
 /// The condition of h F′_para + v F′_perp: each energy's, weighted by its share.
-pub fn mixed(n: f64, k: f64, incidence: SinCos, h: f64, v: f64) -> f64 {
+pub(crate) fn mixed(n: f64, k: f64, incidence: SinCos, h: f64, v: f64) -> f64 {
     let condition = Fresnel::of(n, k, incidence.cos, incidence.sin);
     let energies = index(n, k).energies(incidence);
     let (parallel, perpendicular) = (h * energies.parallel.value, v * energies.perpendicular.value);

@@ -2,23 +2,24 @@
 //! the worst error of each quantity is kept.
 
 use crate::measure;
-use crate::table::{Row, Table, Value};
+use crate::table::{Exact, Row, Table, Value};
 use reflectance::reflectance::numeric::scaled::Scaled;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 
 /// The gate, in units of the measure.
-pub const GATE: f64 = 64.0;
+pub(crate) const GATE: f64 = 64.0;
 
 /// The worst of one quantity.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Worst {
+pub(crate) struct Worst {
     /// Values checked.
-    pub count: usize,
+    pub(crate) count: usize,
     /// Largest error, in units.
-    pub units: f64,
+    pub(crate) units: f64,
     /// The line it is at.
-    pub line: &'static str,
+    pub(crate) line: &'static str,
 }
 
 impl Worst {
@@ -34,28 +35,28 @@ impl Worst {
 
 /// What a family measured.
 #[derive(Debug, Default)]
-pub struct Measured {
+pub(crate) struct Measured {
     /// Name of the family.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Lines read.
-    pub lines: usize,
+    pub(crate) lines: usize,
     /// Worst by quantity; logarithms under `log10 …`.
-    pub worst: BTreeMap<String, Worst>,
+    pub(crate) worst: BTreeMap<String, Worst>,
     /// Everything that is wrong, one sentence each.
-    pub failures: Vec<String>,
+    pub(crate) failures: Vec<String>,
 }
 
 /// A line being checked.
-pub struct Line<'f> {
+pub(crate) struct Line<'f> {
     /// Its inputs and outputs.
-    pub row: Row<'f>,
+    pub(crate) row: Row<'f>,
     seen: RefCell<BTreeSet<&'static str>>,
     measured: RefCell<&'f mut Measured>,
 }
 
 impl Measured {
     /// Runs `check` on every line of `table` and sees that it left out no output.
-    pub fn run(name: &'static str, table: &Table, check: impl Fn(&Line<'_>)) -> Self {
+    pub(crate) fn run(name: &'static str, table: &Table, check: impl Fn(&Line<'_>)) -> Self {
         let mut measured = Self { name, lines: table.len(), ..Self::default() };
         for row in table.rows() {
             let line = Line { row, seen: RefCell::default(), measured: RefCell::new(&mut measured) };
@@ -70,7 +71,7 @@ impl Measured {
     }
 
     /// Fails with all that is wrong: what lies beyond the gate, and every predicate missed.
-    pub fn assert_passes(&self, lines: usize, values: usize) {
+    pub(crate) fn assert_passes(&self, lines: usize, values: usize) {
         println!("{}", self.report());
         let shown: Vec<_> = self.failures.iter().take(40).map(String::as_str).collect();
         assert!(
@@ -85,7 +86,7 @@ impl Measured {
     }
 
     /// Values compared: numbers, logarithms, predicates.
-    pub fn values(&self) -> usize {
+    pub(crate) fn values(&self) -> usize {
         self.worst.values().map(|worst| worst.count).sum()
     }
 
@@ -93,7 +94,8 @@ impl Measured {
         let mut text = format!("{}: {} lines, {} values\n", self.name, self.lines, self.values());
         for (quantity, worst) in &self.worst {
             let Worst { count, units, line } = worst;
-            text += &format!("  {quantity:32} {count:6} values, worst {units:8.3} units at {line}\n");
+            writeln!(text, "  {quantity:32} {count:6} values, worst {units:8.3} units at {line}")
+                .expect("string");
         }
         text
     }
@@ -101,12 +103,12 @@ impl Measured {
 
 impl Line<'_> {
     /// A number known with its logarithm: both are judged, at every magnitude.
-    pub fn scaled(&self, output: &'static str, computed: Scaled, cint: f64) {
+    pub(crate) fn scaled(&self, output: &'static str, computed: Scaled, cint: f64) {
         self.pair(output, computed.to_f64(), computed.log10(), cint);
     }
 
     /// A value and the logarithm answered beside it.
-    pub fn pair(&self, output: &'static str, computed: f64, log10: f64, cint: f64) {
+    pub(crate) fn pair(&self, output: &'static str, computed: f64, log10: f64, cint: f64) {
         self.value(output, computed, cint);
         if let Some(Value::Number(exact)) = self.row.output(output) {
             let size = if computed < 0.0 { f64::NAN } else { log10 };
@@ -114,8 +116,16 @@ impl Line<'_> {
         }
     }
 
+    /// A number against a reference that takes the place of the oracle's.
+    pub(crate) fn instead(&self, output: &'static str, computed: Scaled, reference: &Exact, cint: f64) {
+        self.seen.borrow_mut().insert(output);
+        let (value, log10) = (computed.to_f64(), computed.log10());
+        self.add(output.to_owned(), value, measure::units(value, reference, cint));
+        self.add(format!("log10 {output}"), log10, measure::log_units(log10, reference, cint));
+    }
+
     /// A number that the core offers as a plain double. Undefined has to come as NaN.
-    pub fn value(&self, output: &'static str, computed: f64, cint: f64) {
+    pub(crate) fn value(&self, output: &'static str, computed: f64, cint: f64) {
         self.seen.borrow_mut().insert(output);
         match self.row.output(output) {
             Some(Value::Number(exact)) => {
@@ -129,21 +139,21 @@ impl Line<'_> {
     }
 
     /// A value that the oracle leaves undefined and for which the core answers a limit.
-    pub fn instead_of_undefined(&self, output: &'static str, computed: f64, limit: f64) {
+    pub(crate) fn instead_of_undefined(&self, output: &'static str, computed: f64, limit: f64) {
         self.seen.borrow_mut().insert(output);
         let right = self.row.output(output) == Some(Value::Undefined) && computed == limit;
         self.add(output.to_owned(), computed, if right { 0.0 } else { f64::INFINITY });
     }
 
     /// A difference of two terms, judged by the size of the terms; `step` is forgiven.
-    pub fn absolute(&self, output: &'static str, computed: f64, scale: f64, step: f64) {
+    pub(crate) fn absolute(&self, output: &'static str, computed: f64, scale: f64, step: f64) {
         self.seen.borrow_mut().insert(output);
         let exact = self.row.exact(output);
         self.add(output.to_owned(), computed, measure::absolute_units(computed, &exact, scale, step));
     }
 
     /// A number made of one that is subnormal: its last steps, `step` in this one, are forgiven.
-    pub fn stepped(&self, output: &'static str, computed: f64, cint: f64, step: f64) {
+    pub(crate) fn stepped(&self, output: &'static str, computed: f64, cint: f64, step: f64) {
         if measure::difference(computed, &self.row.exact(output)).abs() <= step {
             self.absolute(output, computed, 0.0, step);
         } else {
@@ -152,15 +162,15 @@ impl Line<'_> {
     }
 
     /// A bound stated beside a value: |computed − exact| must not exceed it.
-    pub fn bound(&self, output: &'static str, computed: f64, bound: f64) {
+    pub(crate) fn bound(&self, output: &'static str, computed: f64, bound: f64) {
         let error = measure::difference(computed, &self.row.exact(output)).abs();
-        if !(error <= bound) {
+        if measure::exceeds(error, bound) {
             self.fail(output, &format!("= {computed:e} is {error:e} off, stated {bound:e}"));
         }
     }
 
     /// A predicate, or `None` where it is undefined.
-    pub fn truth(&self, output: &'static str, computed: Option<bool>) {
+    pub(crate) fn truth(&self, output: &'static str, computed: Option<bool>) {
         self.seen.borrow_mut().insert(output);
         let right = match self.row.output(output) {
             Some(Value::Truth(truth)) => computed == Some(truth),
@@ -174,14 +184,13 @@ impl Line<'_> {
     }
 
     /// Records what is wrong with this line.
-    pub fn fail(&self, output: &str, what: &str) {
+    pub(crate) fn fail(&self, output: &str, what: &str) {
         let failure = format!("{} {output} {what}", self.row.id());
         self.measured.borrow_mut().failures.push(failure);
     }
 
     fn add(&self, quantity: String, computed: f64, units: f64) {
-        // Not `units > GATE`: a NaN has to fail.
-        if !(units <= GATE) {
+        if measure::exceeds(units, GATE) {
             self.fail(&quantity, &format!("= {computed:e} is {units:.1} units off"));
         }
         self.measured.borrow_mut().worst.entry(quantity).or_default().add(self.row.id(), units);

@@ -3,16 +3,28 @@
 use crate::condition;
 use crate::family::{Line, Measured};
 use crate::fresnel::{index, polarization};
-use crate::table::Table;
+use crate::table::{Exact, Table};
 use reflectance::reflectance::beckmann_spizzichino::RelativeRoughness;
 use reflectance::reflectance::degrees::SinCos;
 use reflectance::reflectance::fresnel_average::{half_vector, mean_plane, slope_average};
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::lobe_series::{self, Method};
+use reflectance::reflectance::numeric::scaled::Scaled;
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("ff", &Table::parse(include_str!("data/ff.tsv")), check));
+
+/// Slope averages across the critical angle of an index below 1, where F′ has a kink, on which the oracle's quadrature did
+/// not settle: it is off by 8e-11 to 4e-3. These are by tanh-sinh quadrature over the plane of slopes, split along the kink
+/// (and for 0049, at normal incidence, in one dimension by two substitutions), 18 digits and more.
+const ACROSS_CRITICAL_ANGLE: [(&str, f64); 5] = [
+    ("v-ff-0007", 0.187_361_292_126_773_51),
+    ("v-ff-0020", 0.841_669_504_569_067_9),
+    ("v-ff-0025", 0.999_990_557_709_189_4),
+    ("v-ff-0049", 0.314_766_602_324_664_2),
+    ("v-ff-0065", 0.109_007_377_188_136_12),
+];
 
 fn check(line: &Line<'_>) {
     let row = &line.row;
@@ -30,28 +42,39 @@ fn check(line: &Line<'_>) {
     let (cint_mean, cint_half) = (cint(incidence), cint(geometry.local_incidence()));
     line.value("FF_mean_plane", mean_plane.value, cint_mean);
     line.value("FF_half_vector", half_vector.value, cint_half);
-    line.value("FF_slope_average", average.reflectance.value, 0.0);
     line.value("illuminated_fraction", average.illuminated_fraction, 0.0);
     line.bound("FF_mean_plane", mean_plane.value, mean_plane.error);
     line.bound("FF_half_vector", half_vector.value, half_vector.error);
-    line.bound("FF_slope_average", average.reflectance.value, average.reflectance.error);
 
     let roughness = RelativeRoughness {
         height: input("sigma_h") / input("lambda"),
         correlation_length: input("T") / input("lambda"),
     };
     let over_cosines = 1.0 / geometry.cos_r / geometry.cos_i;
-    let (lobe, _) = roughness.lobe(&geometry, over_cosines, Method::Series, 0.0);
-    // The condition of S, which `series` holds to the oracle's.
-    let series = lobe_series::evaluate(Method::Series, roughness.g(&geometry), roughness.x(&geometry), 0.0);
+    let (lobe, _) = roughness.lobe(&geometry, over_cosines, Method::Series);
+    // The condition of S is the moments' of the terms that are summed.
+    let series = lobe_series::evaluate(Method::Series, roughness.g(&geometry), roughness.x(&geometry));
     let cint_lobe = series.condition_g + series.condition_x;
     line.scaled("f_lobe_inf", lobe.value, cint_lobe);
     line.scaled("f_lobe_finite_mean_plane", lobe.value * mean_plane.value, cint_lobe + cint_mean);
     line.scaled("f_lobe_finite_half_vector", lobe.value * half_vector.value, cint_lobe + cint_half);
-    line.scaled("f_lobe_finite_slope_average", lobe.value * average.reflectance.value, cint_lobe);
+    let (mean, finite) = (average.reflectance.value, lobe.value * average.reflectance.value);
+    if let Some((_, reference)) = ACROSS_CRITICAL_ANGLE.iter().find(|(id, _)| *id == row.id()) {
+        let oracle = row.exact("FF_slope_average").nearest;
+        if (oracle / reference - 1.0).abs() < 1e-12 {
+            line.fail("FF_slope_average", "needs no other reference");
+        }
+        let with_lobe = Exact::of(row.exact("f_lobe_inf").nearest * reference);
+        line.instead("FF_slope_average", Scaled::new(mean), &Exact::of(*reference), 0.0);
+        line.instead("f_lobe_finite_slope_average", finite, &with_lobe, cint_lobe);
+    } else {
+        line.scaled("FF_slope_average", Scaled::new(mean), 0.0);
+        line.scaled("f_lobe_finite_slope_average", finite, cint_lobe);
+        line.bound("FF_slope_average", mean, average.reflectance.error);
+    }
 }
 
 #[test]
 fn passes() {
-    MEASURED.assert_passes(70, 840);
+    MEASURED.assert_passes(70, 910);
 }

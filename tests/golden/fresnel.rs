@@ -2,22 +2,23 @@
 
 use crate::condition;
 use crate::family::{Line, Measured};
+use crate::measure::exceeds;
 use crate::table::Table;
 use reflectance::reflectance::degrees::SinCos;
 use reflectance::reflectance::fresnel::{Complex, Medium, Polarization, RefractiveIndex, TimeFactor};
 use reflectance::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("fresnel", &Table::parse(include_str!("data/fresnel.tsv")), check));
 
 /// h and v as energies.
-pub fn polarization(h: f64, v: f64) -> Polarization {
+pub(crate) fn polarization(h: f64, v: f64) -> Polarization {
     Polarization::mix(Fraction::new(h).expect("h"), Fraction::new(v).expect("v")).expect("h + v = 1")
 }
 
 /// n − ik.
-pub fn index(n: f64, k: f64) -> Medium {
+pub(crate) fn index(n: f64, k: f64) -> Medium {
     Medium::Index(RefractiveIndex { n: IndexN::new(n).expect("n"), k: IndexK::new(k).expect("k") })
 }
 
@@ -59,7 +60,7 @@ fn check(line: &Line<'_>) {
     {
         let given = row.cint(name).unwrap_or(0.0);
         let comparable = given < 1e6 && computed < 1e6 && row.exact(name).nearest != 0.0;
-        if comparable && !((computed - given).abs() <= 0.006 * (1.0 + given)) {
+        if comparable && exceeds((computed - given).abs(), 0.006 * (1.0 + given)) {
             line.fail(name, &format!("has cint {given}, computed {computed}"));
         }
     }

@@ -5,10 +5,10 @@ use crate::family::{Line, Measured};
 use crate::table::Table;
 use reflectance::reflectance::beckmann_spizzichino::Patch;
 use reflectance::reflectance::geometry::Geometry;
-use reflectance::reflectance::image_irradiance::{ImageIrradiance, LinearModel, Offset, Spike, Strengths};
+use reflectance::reflectance::image_irradiance::{LinearModel, Offset, Spike, Strengths};
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("image", &Table::parse(include_str!("data/image.tsv")), check));
 
 fn check(line: &Line<'_>) {
@@ -35,13 +35,19 @@ fn check(line: &Line<'_>) {
     let (cint_sinc2, cint_gauss) = (cint("spike_sinc2"), cint("spike_gauss"));
     let source = |model: &LinearModel| model.fixed_source(&geometry, offset);
     let view = |model: &LinearModel| model.fixed_view(&geometry, offset);
-    let both: [(&dyn Fn(&LinearModel) -> ImageIrradiance, [&'static str; 5]); 2] = [
-        (&source, ["src_dl", "src_sl", "src_delta_smooth_part", "src_sinc2", "src_gauss"]),
-        (&view, ["view_dl", "view_sl", "view_delta_smooth_part", "view_sinc2", "view_gauss"]),
-    ];
-    for (evaluate, [dl, sl, smooth, with_sinc2, with_gauss]) in both {
+    let models = [delta, sinc2, gauss];
+    for (answers, [dl, sl, smooth, with_sinc2, with_gauss]) in [
+        (
+            models.map(|model| source(&model)),
+            ["src_dl", "src_sl", "src_delta_smooth_part", "src_sinc2", "src_gauss"],
+        ),
+        (
+            models.map(|model| view(&model)),
+            ["view_dl", "view_sl", "view_delta_smooth_part", "view_sinc2", "view_gauss"],
+        ),
+    ] {
         let log = |name| row.exact(name).log10();
-        let answer = evaluate(&delta);
+        let [answer, sinc2, gauss] = answers;
         line.scaled(dl, answer.diffuse_lobe.value, 0.0);
         line.scaled(sl, answer.specular_lobe.value, cint(sl));
         let cint_smooth = mixed([(log(dl), 0.0), (log(sl), cint(sl))]);
@@ -50,8 +56,8 @@ fn check(line: &Line<'_>) {
             let strength = input("C_ss").log10();
             mixed([(log(smooth), cint_smooth), (strength + log(spike), cint)])
         };
-        line.scaled(with_sinc2, evaluate(&sinc2).total().value, with("spike_sinc2", cint_sinc2));
-        line.scaled(with_gauss, evaluate(&gauss).total().value, with("spike_gauss", cint_gauss));
+        line.scaled(with_sinc2, sinc2.total().value, with("spike_sinc2", cint_sinc2));
+        line.scaled(with_gauss, gauss.total().value, with("spike_gauss", cint_gauss));
     }
     line.truth("delta_on", Some(source(&delta).delta_on));
 

@@ -6,6 +6,7 @@ mod api;
 mod bs;
 mod condition;
 mod family;
+mod ff;
 mod fresnel;
 mod image;
 mod measure;
@@ -28,6 +29,7 @@ fn docs_accuracy_is_up_to_date() {
         &ts::MEASURED,
         &roughness::MEASURED,
         &image::MEASURED,
+        &ff::MEASURED,
         &api::MEASURED,
     ]);
 }

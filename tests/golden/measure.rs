@@ -7,18 +7,23 @@
 use crate::table::Exact;
 
 /// ε = 2⁻⁵³, half the spacing of doubles just above 1.
-pub const EPSILON: f64 = f64::EPSILON / 2.0;
+pub(crate) const EPSILON: f64 = f64::EPSILON / 2.0;
 /// 2⁻¹⁰⁷⁴, the smallest subnormal.
 const SMALLEST: f64 = 5e-324;
 
+/// Whether an error is larger than it may be. Not a number counts as infinitely wrong.
+pub(crate) fn exceeds(error: f64, most: f64) -> bool {
+    error.is_nan() || most.is_nan() || error > most
+}
+
 /// computed − exact, with the digits of the exact value that its nearest double leaves out.
 /// The subtraction of neighbouring doubles is exact, so the error is seen well below one ulp.
-pub fn difference(computed: f64, exact: &Exact) -> f64 {
+pub(crate) fn difference(computed: f64, exact: &Exact) -> f64 {
     (computed - exact.nearest) - exact.rest
 }
 
 /// The smallest C at which `computed` passes; infinite when none does.
-pub fn units(computed: f64, exact: &Exact, cint: f64) -> f64 {
+pub(crate) fn units(computed: f64, exact: &Exact, cint: f64) -> f64 {
     if computed.is_nan() || exact.nearest.is_infinite() || computed.is_infinite() {
         return if computed == exact.nearest { 0.0 } else { f64::INFINITY };
     }
@@ -36,7 +41,7 @@ pub fn units(computed: f64, exact: &Exact, cint: f64) -> f64 {
 }
 
 /// The same for a decimal logarithm. The logarithm of an exact zero is −∞.
-pub fn log_units(computed: f64, exact: &Exact, cint: f64) -> f64 {
+pub(crate) fn log_units(computed: f64, exact: &Exact, cint: f64) -> f64 {
     let log10 = exact.log10();
     if log10.is_infinite() || !computed.is_finite() {
         return if computed == log10 { 0.0 } else { f64::INFINITY };
@@ -45,7 +50,7 @@ pub fn log_units(computed: f64, exact: &Exact, cint: f64) -> f64 {
 }
 
 /// For a difference of two numbers that may cancel: C such that |computed − exact| = C ε scale + step.
-pub fn absolute_units(computed: f64, exact: &Exact, scale: f64, step: f64) -> f64 {
+pub(crate) fn absolute_units(computed: f64, exact: &Exact, scale: f64, step: f64) -> f64 {
     let error = difference(computed, exact).abs() - step.max(SMALLEST);
     if error <= 0.0 { 0.0 } else { error / (EPSILON * scale) }
 }

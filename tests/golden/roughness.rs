@@ -6,7 +6,7 @@ use reflectance::reflectance::degrees::from_radians;
 use reflectance::reflectance::roughness::{facet_slope_radians, facet_slope_small, height_to_length_ratio};
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("roughness", &Table::parse(include_str!("data/roughness.tsv")), check));
 
 fn check(line: &Line<'_>) {

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use tokio::runtime::Runtime;
 
 /// A running service; stopped when dropped.
-pub struct Server {
+pub(crate) struct Server {
     process: Child,
     address: String,
     runtime: Runtime,
@@ -15,7 +15,7 @@ pub struct Server {
 
 impl Server {
     /// Starts it on a free port and reads from its output which.
-    pub fn start() -> Self {
+    pub(crate) fn start() -> Self {
         let mut process = Command::new(env!("CARGO_BIN_EXE_reflectance"))
             .args(["--listen", "127.0.0.1:0"])
             .stdout(Stdio::piped())
@@ -36,7 +36,7 @@ impl Server {
     }
 
     /// Posts JSON; the answer has to be a success.
-    pub fn post(&self, path: &str, body: &Value) -> Value {
+    pub(crate) fn post(&self, path: &str, body: &Value) -> Value {
         self.runtime.block_on(async {
             let url = format!("{}{path}", self.address);
             let answer = self.client.post(url).json(body).send().await.expect("an answer");

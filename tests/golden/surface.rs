@@ -8,7 +8,7 @@ use reflectance::reflectance::surface::{
 };
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("surface", &Table::parse(include_str!("data/surface.tsv")), check));
 
 fn check(line: &Line<'_>) {

@@ -4,23 +4,23 @@ use std::collections::HashMap;
 
 /// A value of the oracle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exact {
+pub(crate) struct Exact {
     /// The nearest double; 0 on underflow, infinite on overflow.
-    pub nearest: f64,
+    pub(crate) nearest: f64,
     /// Exact value − nearest double, to a hundredth of an ulp.
-    pub rest: f64,
+    pub(crate) rest: f64,
     /// log10 |value|, given where the nearest double cannot tell.
-    pub log: Option<f64>,
+    pub(crate) log: Option<f64>,
 }
 
 impl Exact {
     /// A double, exactly.
-    pub fn of(value: f64) -> Self {
+    pub(crate) fn of(value: f64) -> Self {
         Self { nearest: value, rest: 0.0, log: None }
     }
 
     /// log10 |value|; −∞ for an exact zero.
-    pub fn log10(&self) -> f64 {
+    pub(crate) fn log10(&self) -> f64 {
         // One more rounding than the oracle's own logarithm: below one unit of the measure.
         self.log.unwrap_or_else(|| libm::log10(self.nearest.abs()))
     }
@@ -47,7 +47,7 @@ fn ulp(value: f64) -> f64 {
 
 /// One cell of an `out.` column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
+pub(crate) enum Value {
     /// A number.
     Number(Exact),
     /// A predicate.
@@ -57,7 +57,7 @@ pub enum Value {
 }
 
 /// One file of `data/`.
-pub struct Table {
+pub(crate) struct Table {
     columns: HashMap<&'static str, usize>,
     names: Vec<&'static str>,
     rows: Vec<Vec<&'static str>>,
@@ -65,13 +65,13 @@ pub struct Table {
 
 /// One line of a table.
 #[derive(Clone, Copy)]
-pub struct Row<'t> {
+pub(crate) struct Row<'t> {
     table: &'t Table,
     cells: &'t [&'static str],
 }
 
 impl Table {
-    pub fn parse(text: &'static str) -> Self {
+    pub(crate) fn parse(text: &'static str) -> Self {
         let mut lines = text.lines();
         let names: Vec<_> = lines.next().expect("header").split('\t').collect();
         let rows: Vec<Vec<_>> = lines.map(|line| line.split('\t').collect()).collect();
@@ -80,54 +80,54 @@ impl Table {
         Self { columns, names, rows }
     }
 
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.rows.iter().map(|cells| Row { table: self, cells })
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }
 }
 
 impl<'t> Row<'t> {
     /// The text of a cell; `None` where this kind of line has none.
-    pub fn cell(&self, column: &str) -> Option<&'static str> {
+    pub(crate) fn cell(&self, column: &str) -> Option<&'static str> {
         self.table.columns.get(column).map(|&index| self.cells[index]).filter(|cell| !cell.is_empty())
     }
 
-    pub fn id(&self) -> &'static str {
+    pub(crate) fn id(&self) -> &'static str {
         self.cells[0]
     }
 
     /// An input that is a number.
-    pub fn input(&self, name: &str) -> f64 {
+    pub(crate) fn input(&self, name: &str) -> f64 {
         self.optional(name).unwrap_or_else(|| panic!("{}: {name} is null", self.id()))
     }
 
     /// An input that may be `null`.
-    pub fn optional(&self, name: &str) -> Option<f64> {
+    pub(crate) fn optional(&self, name: &str) -> Option<f64> {
         let cell =
             self.cell(&format!("in.{name}")).unwrap_or_else(|| panic!("{}: no input {name}", self.id()));
         (cell != "null").then(|| cell.parse().expect("number"))
     }
 
     /// An input that is a string.
-    pub fn text(&self, name: &str) -> &'static str {
+    pub(crate) fn text(&self, name: &str) -> &'static str {
         self.cell(&format!("in.{name}")).expect("text").trim_matches('"')
     }
 
     /// The conditioning that goes into the measure, where the oracle gives one.
-    pub fn cint(&self, name: &str) -> Option<f64> {
+    pub(crate) fn cint(&self, name: &str) -> Option<f64> {
         self.cell(&format!("cint.{name}")).map(|cell| cell.parse().expect("cint"))
     }
 
     /// The sum of the condition numbers with respect to the inputs.
-    pub fn cond(&self, name: &str) -> Option<f64> {
+    pub(crate) fn cond(&self, name: &str) -> Option<f64> {
         self.cell(&format!("cond.{name}")).map(|cell| cell.parse().expect("cond"))
     }
 
     /// An output.
-    pub fn output(&self, name: &str) -> Option<Value> {
+    pub(crate) fn output(&self, name: &str) -> Option<Value> {
         self.cell(&format!("out.{name}")).map(|cell| match cell {
             "null" => Value::Undefined,
             "true" => Value::Truth(true),
@@ -137,7 +137,7 @@ impl<'t> Row<'t> {
     }
 
     /// An output that is known to be a number.
-    pub fn exact(&self, name: &str) -> Exact {
+    pub(crate) fn exact(&self, name: &str) -> Exact {
         match self.output(name) {
             Some(Value::Number(exact)) => exact,
             other => panic!("{}: {name} is {other:?}", self.id()),
@@ -145,7 +145,7 @@ impl<'t> Row<'t> {
     }
 
     /// The names of the outputs this line has.
-    pub fn outputs(&self) -> impl Iterator<Item = &'static str> + use<'t> {
+    pub(crate) fn outputs(&self) -> impl Iterator<Item = &'static str> + use<'t> {
         let cells = self.cells;
         self.table
             .names
@@ -155,11 +155,10 @@ impl<'t> Row<'t> {
     }
 
     /// The columns whose names are JSON Pointers, with their JSON.
-    pub fn pointers(&self) -> impl Iterator<Item = (&'static str, &'static str)> + use<'t> {
+    pub(crate) fn pointers(&self) -> impl Iterator<Item = (&'static str, &'static str)> + use<'t> {
         let cells = self.cells;
-        self.table.names.iter().enumerate().filter_map(move |(index, &name)| {
-            (name.starts_with('/') && !cells[index].is_empty()).then(|| (name, cells[index]))
-        })
+        let named = self.table.names.iter().copied().zip(cells.iter().copied());
+        named.filter(|(name, cell)| name.starts_with('/') && !cell.is_empty())
     }
 }
 

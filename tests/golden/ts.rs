@@ -11,7 +11,7 @@ use reflectance::reflectance::shadowing::Shadowing;
 use reflectance::reflectance::torrance_sparrow::FacetLobe;
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("ts", &Table::parse(include_str!("data/ts.tsv")), check));
 
 fn check(line: &Line<'_>) {

@@ -7,7 +7,7 @@ use reflectance::reflectance::radiometry::Camera;
 use reflectance::reflectance::waves::{Lossless, SmoothPlate, wavenumber};
 use std::sync::LazyLock;
 
-pub static MEASURED: LazyLock<Measured> =
+pub(crate) static MEASURED: LazyLock<Measured> =
     LazyLock::new(|| Measured::run("waves", &Table::parse(include_str!("data/waves.tsv")), check));
 
 fn check(line: &Line<'_>) {

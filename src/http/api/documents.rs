@@ -4,7 +4,8 @@ use crate::http::Limits;
 use crate::http::openapi::openapi_json;
 use axum::Router;
 use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::{IntoResponse, Redirect, Response};
+use axum::routing::get;
 use std::sync::LazyLock;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
@@ -21,7 +22,8 @@ pub(crate) async fn openapi() -> Response {
     ([(header::CONTENT_TYPE, "application/json")], DOCUMENT.as_str()).into_response()
 }
 
-/// The reference at `/docs`; its pages and scripts are part of the program.
+/// The reference at `/docs`, where `/` leads; its pages and scripts are part of the program.
 pub(crate) fn reference() -> Router<Limits> {
     Router::from(SwaggerUi::new("/docs").config(Config::from("/openapi.json")))
+        .route("/", get(|| async { Redirect::temporary("/docs/") }))
 }
