@@ -2,8 +2,6 @@
 //! 359 directions by the methods that serve there. `cargo bench --bench curves`; criterion's `thrpt`
 //! line gives directions a second.
 
-#![expect(missing_docs, reason = "criterion's macros generate undocumented items")]
-
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use reflectance::reflectance::diagram::{Division, Sweep, SweepAxis};
 use reflectance::reflectance::evaluate::{Output, Quantity};

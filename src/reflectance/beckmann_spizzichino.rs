@@ -76,11 +76,16 @@ impl RelativeRoughness {
         if geometry.cos_r == 0.0 || !patch.is_finite() {
             return if cosines == 0.0 { Estimate::UNDEFINED } else { Estimate::INFINITE };
         }
-        let g = self.g(geometry);
         let cos_r = Scaled::new(geometry.cos_r);
-        let strength = Scaled::new(cosines) * patch.footprint * Scaled::exp(-g) / cos_r / cos_r;
-        let log_error = EPSILON * (PREFACTOR_UNITS + G_UNITS * g);
-        Estimate::within(strength, log_error).times(patch.rho_squared(geometry))
+        let strength = Scaled::new(cosines) * patch.footprint / cos_r / cos_r;
+        self.coherent(geometry, patch).scaled_by(strength).widened(EPSILON * PREFACTOR_UNITS)
+    }
+
+    /// e^{-g} ρ_o²: the share of a smooth plate's specular power that stays coherent.
+    pub(super) fn coherent(&self, geometry: &Geometry, patch: &Patch) -> Estimate {
+        let g = self.g(geometry);
+        let share = Estimate::within(Scaled::exp(-g), EPSILON * (4.0 + G_UNITS * g));
+        share.times(patch.rho_squared(geometry))
     }
 }
 

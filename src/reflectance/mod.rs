@@ -25,6 +25,7 @@ pub mod numeric;
 pub mod quantity;
 pub mod radiometry;
 pub mod roughness;
+pub mod scattered_power;
 pub mod scene;
 pub mod shadowing;
 pub mod surface;

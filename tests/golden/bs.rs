@@ -8,6 +8,7 @@ use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::lobe_series::{self, Method};
 use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::radiometry::Camera;
+use reflectance::reflectance::scattered_power::ScatteredPower;
 use reflectance::reflectance::waves::{SmoothPlate, wavenumber};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -123,8 +124,7 @@ fn vectors(scene: &Scene<'_, '_>) {
     }
 }
 
-/// (32), (33), (38), (39): fields at R_o scattered by the area A = 4XY. The core speaks of radiance over
-/// irradiance; (43) and (46) lead back.
+/// (32), (33), (38), (39): fields at R_o scattered by the area A = 4XY.
 fn powers(scene: &Scene<'_, '_>) {
     let Scene { line, geometry, roughness, .. } = scene;
     let row = &line.row;
@@ -136,11 +136,13 @@ fn powers(scene: &Scene<'_, '_>) {
         distance: input("R_o"),
     };
     line.value("E2ss", plate.specular_amplitude(input("E0"), geometry.cos_i), 0.0);
-    let (cos_r, area) = (geometry.cos_r, 4.0 * input("X") * input("Y"));
-    let field = Scaled::new(input("E0") / input("R_o")).squared();
-    let spike = scene.spike(geometry.cos_i * geometry.cos_i) * field * Scaled::new(area * cos_r).squared()
-        / Scaled::new(input("footprint"));
-    let lobe = |method| scene.lobe(1.0, method) * field * area;
+    let power = ScatteredPower {
+        roughness: *roughness,
+        patch: scene.patch,
+        amplitude: input("E0"),
+        distance: input("R_o") / input("lambda"),
+    };
+    let (spike, lobe) = (power.spike(geometry).value, |method| power.lobe(geometry, method).value);
     let (cint_spike, cint_lobe) = (row.cint("L_spike").unwrap_or(0.0), row.cint("L_lobe").unwrap_or(0.0));
     line.scaled("power_spike", spike, cint_spike);
     line.scaled("power_lobe", lobe(Method::Series), cint_lobe);
