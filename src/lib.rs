@@ -11,7 +11,8 @@
 //! | (11), (12), (15), (30)-(32), (50) | [`reflectance::waves`] |
 //! | (24), (25), (62)-(64) | [`reflectance::fresnel`] |
 //! | (28), (34), (36), (37), (59), (60), (76) | [`reflectance::geometry`] |
-//! | (33), (35), (38), (39), (47)-(49) | [`reflectance::beckmann_spizzichino`] |
+//! | (35), (47)-(49) | [`reflectance::beckmann_spizzichino`] |
+//! | (33), (38), (39) | [`reflectance::scattered_power`] |
 //! | (41) | [`reflectance::fresnel_average`] |
 //! | (57) | [`reflectance::lambertian`] |
 //! | (65) | [`reflectance::shadowing`] |
