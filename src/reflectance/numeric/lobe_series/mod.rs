@@ -12,6 +12,8 @@
 mod saddle;
 mod series;
 mod single_term;
+#[cfg(test)]
+mod tests;
 mod uniform;
 
 use super::EPSILON;
@@ -114,7 +116,7 @@ pub fn evaluate(method: Method, g: f64, x: f64) -> LobeSeries {
         Method::Auto => cheapest(g, x),
         Method::Series => series::converged(g, x, &Saddle::of(g, x)),
         Method::Paper => series::first_hundred(g, x),
-        Method::Uniform => uniform::order_four(g, x, &Saddle::of(g, x)),
+        Method::Uniform => uniform_as_asked(g, x),
         Method::Smooth => single_term::smooth(g, x),
         Method::Rough => single_term::rough(g, x),
     }
@@ -130,5 +132,15 @@ fn cheapest(g: f64, x: f64) -> LobeSeries {
         uniform::order_four(g, x, &saddle)
     } else {
         series::converged(g, x, &saddle)
+    }
+}
+
+/// The saddle-point expansion wherever it is asked for.
+fn uniform_as_asked(g: f64, x: f64) -> LobeSeries {
+    let saddle = Saddle::of(g, x);
+    if uniform::serves(&saddle) {
+        uniform::order_four(g, x, &saddle)
+    } else {
+        uniform::beyond(g, x, &saddle, &series::converged(g, x, &saddle))
     }
 }

@@ -5,11 +5,11 @@
 //! uniformly in x; at x = 0 it is 1/g + 1/g² + 2/g³ + 6/g⁴ + 24/g⁵, and (49) is its u → 0 limit.
 
 use super::saddle::Saddle;
-use super::{LobeSeries, Method, rounding, series};
+use super::{LobeSeries, Method, rounding};
 use crate::reflectance::numeric::scaled::Scaled;
 
 /// Bound of |c₅| and the tail it stands for, over all w ≥ 1 and μ ≥ 10: c₅(1) = 5! is its largest
-/// value; the factor covers what follows it. Measured: see the tests of this file.
+/// value; the factor covers what follows it. Measured against the sum: `tests.rs` beside this file.
 const REMAINDER: f64 = 4.0 * 120.0;
 
 /// c₁ … c₄ as polynomials in t = 1/w, lowest power first.
@@ -60,18 +60,20 @@ fn correction(saddle: &Saddle) -> f64 {
     1.0 + r * (c1 + r * (c2 + r * (c3 + r * c4)))
 }
 
-/// S by the expansion to order 4. Where it does not serve, its error is measured against the sum.
+/// S by the expansion to order 4, where it [`serves`].
 pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
     let value = leading_term(g, x, saddle) * correction(saddle);
     let (condition_g, condition_x) = conditions(g, x, saddle);
-    if serves(saddle) {
-        LobeSeries::converged(value, truncation(saddle), condition_g, condition_x, Method::Uniform)
-    } else {
-        let s = series::converged(g, x, saddle);
-        // Far outside, 1 + c₁/μ + … may be negative: the report's quantities are not.
-        let value = if value.is_negative() { Scaled::ZERO } else { value };
-        LobeSeries::compared(value, rounding(condition_g, condition_x), &s, Method::Uniform)
-    }
+    LobeSeries::converged(value, truncation(saddle), condition_g, condition_x, Method::Uniform)
+}
+
+/// What the expansion makes of a point where it does not serve, measured against `s`.
+pub(super) fn beyond(g: f64, x: f64, saddle: &Saddle, s: &LobeSeries) -> LobeSeries {
+    let value = leading_term(g, x, saddle) * correction(saddle);
+    // Far outside, 1 + c₁/μ + … may be negative: the report's quantities are not.
+    let value = if value.is_negative() { Scaled::ZERO } else { value };
+    let (condition_g, condition_x) = conditions(g, x, saddle);
+    LobeSeries::compared(value, rounding(condition_g, condition_x), s, Method::Uniform)
 }
 
 /// |∂ ln S/∂ ln g| and |∂ ln S/∂ ln x| of the leading term: with ∂u/∂ ln g = −2u/w and
@@ -83,7 +85,7 @@ fn conditions(g: f64, x: f64, &Saddle { u, mu, w }: &Saddle) -> (f64, f64) {
 }
 
 /// e^ψ/(μ √w).
-pub(super) fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
+fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
     let Saddle { u, mu, w } = *saddle;
     // For small u in a form that does not cancel. For large u stationary in μ: with 2x/μ in place of
     // μ ln(μ/g) + x/μ, the rounding of μ would come back w times as large.
