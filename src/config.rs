@@ -1,6 +1,7 @@
 //! Flags and environment, parsed once into a typed [`Config`].
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::error::{ContextKind, ContextValue};
+use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use std::time::Duration;
 
 /// What the command line asks for.
@@ -43,7 +44,8 @@ pub struct Config {
         env = "REFLECTANCE_BODY_LIMIT_BYTES",
         default_value_t = 64 << 20,
         value_name = "BYTES",
-        value_parser = clap::value_parser!(u64).range(1024..=1 << 32)
+        allow_negative_numbers = true,
+        value_parser = bytes
     )]
     pub body_limit_bytes: u64,
     /// Seconds a request may take, from its head to its answer
@@ -52,6 +54,7 @@ pub struct Config {
         env = "REFLECTANCE_REQUEST_TIMEOUT_SECONDS",
         default_value = "60",
         value_name = "SECONDS",
+        allow_negative_numbers = true,
         value_parser = seconds
     )]
     pub request_timeout_seconds: Duration,
@@ -61,6 +64,7 @@ pub struct Config {
         env = "REFLECTANCE_SHUTDOWN_TIMEOUT_SECONDS",
         default_value = "30",
         value_name = "SECONDS",
+        allow_negative_numbers = true,
         value_parser = seconds
     )]
     pub shutdown_timeout_seconds: Duration,
@@ -72,6 +76,14 @@ pub struct Config {
     pub log_level: tracing::level_filters::LevelFilter,
 }
 
+/// Parses a number of bytes between 1 KiB and 4 GiB.
+fn bytes(text: &str) -> Result<u64, String> {
+    text.parse()
+        .ok()
+        .filter(|bytes| (1 << 10..=1 << 32).contains(bytes))
+        .ok_or_else(|| "expected a whole number from 1024 to 4294967296".to_owned())
+}
+
 /// Parses a positive number of seconds up to a day.
 fn seconds(text: &str) -> Result<Duration, String> {
     text.parse::<f64>()
@@ -79,6 +91,31 @@ fn seconds(text: &str) -> Result<Duration, String> {
         .filter(|seconds| (0.001..=86_400.0).contains(seconds))
         .map(Duration::from_secs_f64)
         .ok_or_else(|| "expected a number from 0.001 to 86400".to_owned())
+}
+
+/// What is wrong with the command line or the environment, in one line: the library's own first line, the
+/// values there are, the variable that may have set it, and where to read more.
+pub fn explain(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let mut line = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    if let Some(ContextValue::Strings(values)) = error.get(ContextKind::ValidValue)
+        && !values.is_empty()
+    {
+        line.push_str(": expected one of ");
+        line.push_str(&values.join(", "));
+    }
+    if let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg) {
+        let name = flag.split_whitespace().next().unwrap_or_default().trim_start_matches("--");
+        let command = Cli::command();
+        let argument = command.get_arguments().find(|argument| argument.get_long() == Some(name));
+        if let Some(variable) = argument.and_then(|argument| argument.get_env()) {
+            line.push_str(" (also set by ");
+            line.push_str(&variable.to_string_lossy());
+            line.push(')');
+        }
+    }
+    line.push_str("; see --help");
+    line
 }
 
 #[cfg(test)]

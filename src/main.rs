@@ -2,7 +2,7 @@
 
 use clap::Parser as _;
 use clap::error::ErrorKind;
-use reflectance::config::{Cli, Command, Config, LogFormat};
+use reflectance::config::{self, Cli, Command, Config, LogFormat};
 use reflectance::http;
 use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
@@ -17,11 +17,7 @@ fn main() -> ExitCode {
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             error.exit()
         }
-        Err(error) => {
-            let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            return fail(line.trim_start_matches("error: "));
-        }
+        Err(error) => return fail(&config::explain(&error)),
     };
     match cli.command {
         Some(Command::Openapi) => print(&http::openapi_json()),
@@ -29,8 +25,18 @@ fn main() -> ExitCode {
     }
 }
 
-#[tokio::main]
-async fn serve(config: &Config) -> ExitCode {
+fn serve(config: &Config) -> ExitCode {
+    let runtime = match tokio::runtime::Builder::new_multi_thread().enable_all().build() {
+        Ok(runtime) => runtime,
+        Err(error) => return fail(&format!("cannot start threads: {error}")),
+    };
+    let code = runtime.block_on(listen(config));
+    // Dropping the runtime would wait for work that nobody is waiting for any more.
+    runtime.shutdown_background();
+    code
+}
+
+async fn listen(config: &Config) -> ExitCode {
     let logs = tracing_subscriber::fmt()
         .with_max_level(config.log_level)
         .with_ansi(std::io::stderr().is_terminal())
@@ -41,7 +47,10 @@ async fn serve(config: &Config) -> ExitCode {
     }
     let listener = match TcpListener::bind(&config.listen).await {
         Ok(listener) => listener,
-        Err(error) => return fail(&format!("cannot listen on {}: {error}", config.listen)),
+        Err(error) => {
+            let reason = "set by --listen or REFLECTANCE_LISTEN; see --help";
+            return fail(&format!("cannot listen on {}: {error} ({reason})", config.listen));
+        }
     };
     let address = match listener.local_addr() {
         Ok(address) => address,
@@ -50,8 +59,7 @@ async fn serve(config: &Config) -> ExitCode {
     if print(&http::greeting(address)) != ExitCode::SUCCESS {
         return ExitCode::FAILURE;
     }
-    http::serve(listener, config).await;
-    ExitCode::SUCCESS
+    if http::serve(listener, config).await { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Writes to standard output; a closed pipe is an exit code, not a panic.

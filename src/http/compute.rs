@@ -6,28 +6,74 @@ use super::track::Deadline;
 /// Directions that are evaluated without a change of thread, which costs as much as dozens of them.
 const SMALL: usize = 1000;
 
+fn too_slow() -> Problem {
+    Problem::new(Kind::TooSlow, "the time limit of a request passed; ask for fewer directions")
+}
+
+fn passed(deadline: Deadline) -> bool {
+    tokio::time::Instant::now() >= deadline.0
+}
+
 /// Does work of so many directions.
 pub(super) async fn run<T: Send + 'static>(
     deadline: Deadline,
     directions: usize,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Problem> {
-    if directions <= SMALL { Ok(work()) } else { blocking(deadline, work).await }
+    if directions > SMALL {
+        blocking(deadline, work).await
+    } else if passed(deadline) {
+        Err(too_slow())
+    } else {
+        Ok(work())
+    }
 }
 
-/// Does work on a thread of its own.
+/// Does work on a thread of its own. Work that was still waiting for one at the deadline is never begun.
 pub(super) async fn blocking<T: Send + 'static>(
     deadline: Deadline,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Problem> {
+    let work = move || (!passed(deadline)).then(work);
     match tokio::time::timeout_at(deadline.0, tokio::task::spawn_blocking(work)).await {
-        Ok(Ok(value)) => Ok(value),
+        Ok(Ok(Some(value))) => Ok(value),
         Ok(Err(error)) => {
             tracing::error!(%error, "work did not finish");
             Err(Problem::internal())
         }
-        Err(_) => {
-            Err(Problem::new(Kind::TooSlow, "the time limit of a request passed; ask for fewer directions"))
-        }
+        Ok(Ok(None)) | Err(_) => Err(too_slow()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Deadline, blocking, run};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::Duration;
+    use tokio::time::Instant;
+
+    #[test]
+    fn work_whose_deadline_passed_before_it_began_is_not_begun() {
+        // One thread, which is held until the deadline has passed.
+        let runtime =
+            tokio::runtime::Builder::new_multi_thread().max_blocking_threads(1).enable_all().build().unwrap();
+        runtime.block_on(async {
+            let (release, held) = std::sync::mpsc::channel::<()>();
+            let holder = tokio::task::spawn_blocking(move || held.recv());
+            let begun = Arc::new(AtomicBool::new(false));
+            let work = |begun: &Arc<AtomicBool>| {
+                let begun = Arc::clone(begun);
+                move || begun.store(true, Ordering::SeqCst)
+            };
+            let soon = Deadline(Instant::now() + Duration::from_millis(20));
+            assert!(blocking(soon, work(&begun)).await.is_err());
+            assert!(run(soon, 1, work(&begun)).await.is_err());
+            release.send(()).unwrap();
+            holder.await.unwrap().unwrap();
+            // Behind the work that has to be passed over, on the same thread.
+            tokio::task::spawn_blocking(|| ()).await.unwrap();
+            assert!(!begun.load(Ordering::SeqCst));
+        });
     }
 }

@@ -3,6 +3,7 @@
 mod api;
 mod body;
 mod compute;
+mod connection;
 mod encode;
 mod input;
 mod link;

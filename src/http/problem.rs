@@ -1,10 +1,15 @@
 //! Errors as clients see them: RFC 9457 problem documents.
 
+use super::input::node::excerpt;
 use axum::body::Body;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
+
+/// Seconds after which a client may ask again that was refused for want of time: the work that was in its way
+/// has its own time limit, but most of it ends far sooner.
+const RETRY_AFTER: HeaderValue = HeaderValue::from_static("1");
 
 /// The media type of every error.
 pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
@@ -14,6 +19,7 @@ pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
 pub(crate) enum Kind {
     MalformedJson,
     MalformedQuery,
+    BadRequest,
     BodyUnreadable,
     NotFound,
     MethodNotAllowed,
@@ -32,6 +38,7 @@ impl Kind {
         match self {
             Self::MalformedJson => ("malformed-json", StatusCode::BAD_REQUEST, "The body is not JSON"),
             Self::MalformedQuery => ("malformed-query", StatusCode::BAD_REQUEST, "The query is not readable"),
+            Self::BadRequest => ("bad-request", StatusCode::BAD_REQUEST, "The request is not readable"),
             Self::BodyUnreadable => {
                 ("body-unreadable", StatusCode::BAD_REQUEST, "The body could not be read")
             }
@@ -154,7 +161,7 @@ impl Problem {
     pub(crate) fn invalid(errors: Vec<FieldError>) -> Self {
         let detail = match errors.as_slice() {
             [only] if only.pointer.is_empty() => only.detail.clone(),
-            [only] => format!("{}: {}", only.pointer, only.detail),
+            [only] => format!("{}: {}", excerpt(&only.pointer), only.detail),
             _ => format!("{} errors, each listed with a pointer to its field", errors.len()),
         };
         Self { kind: Kind::InvalidRequest, detail, errors }
@@ -187,6 +194,9 @@ impl Problem {
         let mut response = Response::new(Body::from(body));
         *response.status_mut() = status;
         response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
+        if status == StatusCode::SERVICE_UNAVAILABLE {
+            response.headers_mut().insert(header::RETRY_AFTER, RETRY_AFTER);
+        }
         response
     }
 }

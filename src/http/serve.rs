@@ -3,41 +3,49 @@
 //! A loop of our own rather than `axum::serve`, which sets no time limit on a request's head: a
 //! client that sends one byte a minute would hold its connection for ever.
 
+use super::connection::{Activity, Protocol, Watched, protocol};
 use super::router;
 use crate::config::Config;
 use axum::Router;
+use axum::extract::{Request, State};
+use axum::middleware::{Next, from_fn_with_state};
+use axum::response::Response;
 use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
 use hyper_util::server::conn::auto::Builder;
-use hyper_util::server::graceful::GracefulShutdown;
+use hyper_util::server::graceful::{GracefulShutdown, Watcher};
 use hyper_util::service::TowerToHyperService;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::watch;
 
 /// Largest request head: ample for the longest query that makes sense.
 const MAX_HEAD_BYTES: usize = 64 << 10;
 /// After a failed accept (out of file descriptors, say) wait rather than spin.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
+/// Once the service stops: how long a connection may be silent before it counts as idle.
+const QUIET: Duration = Duration::from_secs(1);
 
-/// Serves until SIGTERM or Ctrl-C, then lets the requests in flight finish.
-pub async fn serve(listener: TcpListener, config: &Config) {
-    let router = router(config);
-    let mut builder = Builder::new(TokioExecutor::new());
-    builder
-        .http1()
-        .timer(TokioTimer::new())
-        .header_read_timeout(config.request_timeout_seconds)
-        .max_buf_size(MAX_HEAD_BYTES);
-    builder
-        .http2()
-        .timer(TokioTimer::new())
-        .max_header_list_size(u32::try_from(MAX_HEAD_BYTES).unwrap_or(u32::MAX))
-        .keep_alive_interval(Some(config.request_timeout_seconds));
+/// Serves until SIGTERM or Ctrl-C, then lets the requests in flight finish. Says whether all did.
+pub async fn serve(listener: TcpListener, config: &Config) -> bool {
+    let in_flight = Arc::new(AtomicUsize::new(0));
+    let (stopping, stopped) = watch::channel(false);
+    let server = Arc::new(Server {
+        router: router(config).layer(from_fn_with_state(Arc::clone(&in_flight), count)),
+        http1: http1(config),
+        http2: http2(config),
+        patience: config.request_timeout_seconds,
+        in_flight,
+    });
     let open = GracefulShutdown::new();
     let mut stop = std::pin::pin!(stop_signal());
     loop {
         tokio::select! {
             accepted = listener.accept() => match accepted {
-                Ok((stream, _)) => connect(stream, &builder, &router, &open),
+                Ok((stream, _)) => {
+                    tokio::spawn(Arc::clone(&server).connection(stream, open.watcher(), stopped.clone()));
+                }
                 Err(error) => {
                     tracing::warn!(%error, "accept failed");
                     tokio::time::sleep(ACCEPT_PAUSE).await;
@@ -47,26 +55,118 @@ pub async fn serve(listener: TcpListener, config: &Config) {
         }
     }
     drop(listener);
+    stopping.send_replace(true);
     tracing::info!(connections = open.count(), "stopping: finishing what is in flight");
     tokio::select! {
-        () = open.shutdown() => tracing::info!("stopped"),
-        () = tokio::time::sleep(config.shutdown_timeout_seconds) => tracing::warn!("stopped with requests unfinished"),
+        () = open.shutdown() => {
+            tracing::info!("stopped");
+            true
+        }
+        () = tokio::time::sleep(config.shutdown_timeout_seconds) => {
+            tracing::warn!("stopped with requests unfinished");
+            false
+        }
     }
 }
 
-fn connect(stream: TcpStream, builder: &Builder<TokioExecutor>, router: &Router, open: &GracefulShutdown) {
-    // Answers are written whole: waiting to fill a segment only delays the small ones.
-    if let Err(error) = stream.set_nodelay(true) {
-        tracing::debug!(%error, "TCP_NODELAY was refused");
-    }
-    let service = TowerToHyperService::new(router.clone());
-    let connection = builder.serve_connection(TokioIo::new(stream), service).into_owned();
-    let connection = open.watch(connection);
-    tokio::spawn(async move {
-        if let Err(error) = connection.await {
-            tracing::debug!(error, "connection ended");
+fn http1(config: &Config) -> Builder<TokioExecutor> {
+    let mut builder = Builder::new(TokioExecutor::new()).http1_only();
+    builder
+        .http1()
+        .timer(TokioTimer::new())
+        .header_read_timeout(config.request_timeout_seconds)
+        .max_buf_size(MAX_HEAD_BYTES);
+    builder
+}
+
+fn http2(config: &Config) -> Builder<TokioExecutor> {
+    let mut builder = Builder::new(TokioExecutor::new()).http2_only();
+    builder
+        .http2()
+        .timer(TokioTimer::new())
+        .max_header_list_size(u32::try_from(MAX_HEAD_BYTES).unwrap_or(u32::MAX))
+        .keep_alive_interval(Some(config.request_timeout_seconds));
+    builder
+}
+
+/// Counts the requests that are being answered.
+async fn count(State(in_flight): State<Arc<AtomicUsize>>, request: Request, next: Next) -> Response {
+    /// Counts down also where the client leaves and the future is dropped.
+    struct Guard(Arc<AtomicUsize>);
+    impl Drop for Guard {
+        fn drop(&mut self) {
+            self.0.fetch_sub(1, Ordering::Relaxed);
         }
-    });
+    }
+    in_flight.fetch_add(1, Ordering::Relaxed);
+    let _guard = Guard(in_flight);
+    next.run(request).await
+}
+
+/// What every connection shares.
+struct Server {
+    router: Router,
+    http1: Builder<TokioExecutor>,
+    http2: Builder<TokioExecutor>,
+    patience: Duration,
+    in_flight: Arc<AtomicUsize>,
+}
+
+impl Server {
+    /// Serves one connection to its end.
+    async fn connection(
+        self: Arc<Self>,
+        stream: TcpStream,
+        watcher: Watcher,
+        stopped: watch::Receiver<bool>,
+    ) {
+        // Answers are written whole: waiting to fill a segment only delays the small ones.
+        if let Err(error) = stream.set_nodelay(true) {
+            tracing::debug!(%error, "TCP_NODELAY was refused");
+        }
+        // The library would wait for the first bytes without limit.
+        let first = tokio::select! {
+            first = tokio::time::timeout(self.patience, protocol(&stream)) => first,
+            () = quiet_after(stopped.clone()) => return,
+        };
+        let protocol = match first {
+            Ok(Ok(Some(protocol))) => protocol,
+            Ok(Ok(None)) => return,
+            Ok(Err(error)) => return tracing::debug!(%error, "connection ended"),
+            Err(_) => return tracing::debug!("a client did not begin in time"),
+        };
+        let activity = Activity::new();
+        let stream = TokioIo::new(Watched { stream, activity: activity.clone() });
+        let service = TowerToHyperService::new(self.router.clone());
+        let builder = if protocol == Protocol::Http1 { &self.http1 } else { &self.http2 };
+        let connection = watcher.watch(builder.serve_connection(stream, service).into_owned());
+        tokio::select! {
+            ended = connection => if let Err(error) = ended {
+                tracing::debug!(error, "connection ended");
+            },
+            () = self.idle(&activity, stopped), if protocol == Protocol::Http2 => {
+                tracing::debug!("a silent client was let go");
+            }
+        }
+    }
+
+    /// Resolves once the service stops, no request is being answered and nothing moved here for [`QUIET`].
+    ///
+    /// An idle connection of HTTP/1 closes by itself. One of HTTP/2 waits for the client to confirm that it
+    /// heard of the end, and a client that is gone never does.
+    async fn idle(&self, activity: &Activity, stopped: watch::Receiver<bool>) {
+        quiet_after(stopped).await;
+        while self.in_flight.load(Ordering::Relaxed) > 0 || activity.last().elapsed() < QUIET {
+            tokio::time::sleep(QUIET / 10).await;
+        }
+    }
+}
+
+/// Resolves [`QUIET`] after the service was told to stop.
+async fn quiet_after(mut stopped: watch::Receiver<bool>) {
+    // An error means that the sender is gone: the service stops all the same.
+    let _ = stopped.wait_for(|stopped| *stopped).await;
+    tokio::time::sleep(QUIET).await;
 }
 
 /// Resolves at SIGTERM or Ctrl-C. A signal that cannot be listened to never resolves.

@@ -71,6 +71,9 @@ fn settle(response: Response, method: &Method, path: &str) -> Response {
     match status {
         StatusCode::NOT_FOUND => not_found().render(path),
         _ if status.is_server_error() => Problem::internal().render(path),
+        _ if status.is_client_error() => {
+            Problem::new(Kind::BadRequest, "The request could not be read.").render(path)
+        }
         _ => response,
     }
 }

@@ -33,6 +33,22 @@ fn a_wrong_configuration_ends_the_start_with_one_line() {
 }
 
 #[test]
+fn a_wrong_value_is_told_with_the_values_there_are_and_where_it_may_come_from() {
+    for (arguments, words) in [
+        (["--log-format", "xml"], ["human, json", "REFLECTANCE_LOG_FORMAT"]),
+        (["--log-level", "loud"], ["debug", "REFLECTANCE_LOG_LEVEL"]),
+        (["--body-limit-bytes", "-1"], ["1024", "REFLECTANCE_BODY_LIMIT_BYTES"]),
+        (["--request-timeout-seconds", "soon"], ["86400", "REFLECTANCE_REQUEST_TIMEOUT_SECONDS"]),
+        (["--listen", "nowhere"], ["--listen", "REFLECTANCE_LISTEN"]),
+    ] {
+        let text = String::from_utf8(run(&arguments).stderr).unwrap();
+        for word in [words[0], words[1], arguments[0], "--help"] {
+            assert!(text.contains(word), "{word}: {text}");
+        }
+    }
+}
+
+#[test]
 fn the_environment_mirrors_the_flags_and_is_checked_as_well() {
     let output = Command::new(env!("CARGO_BIN_EXE_reflectance"))
         .env("REFLECTANCE_LISTEN", "no such host:1")

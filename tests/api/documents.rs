@@ -86,3 +86,9 @@ fn the_reference_needs_no_other_server() {
     }
     assert!(texts[1].contains("/openapi.json"), "{}", texts[1]);
 }
+
+#[test]
+fn the_reference_calls_nobody_else() {
+    let script = Server::start().get("/docs/swagger-initializer.js").text().unwrap();
+    assert!(script.contains(r#""validatorUrl": "none""#), "{script}");
+}

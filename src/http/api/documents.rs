@@ -24,6 +24,8 @@ pub(crate) async fn openapi() -> Response {
 
 /// The reference at `/docs`, where `/` leads; its pages and scripts are part of the program.
 pub(crate) fn reference() -> Router<Limits> {
-    Router::from(SwaggerUi::new("/docs").config(Config::from("/openapi.json")))
+    // Without "none" the page asks a public validator about every document that is not on localhost.
+    let config = Config::from("/openapi.json").validator_url("none");
+    Router::from(SwaggerUi::new("/docs").config(config))
         .route("/", get(|| async { Redirect::temporary("/docs/") }))
 }

@@ -12,14 +12,12 @@ use crate::http::problem::{Kind, Problem};
 use crate::http::track::Deadline;
 use crate::reflectance::figures::{FIGURES, Figure, find};
 use axum::extract::Path;
+use axum::extract::rejection::PathRejection;
 use axum::response::Response;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use utoipa::openapi::{RefOr, Response as Documented};
 use utoipa::{IntoResponses, ToSchema};
-
-/// The directions of the largest figure, about: enough to leave the threads that serve connections.
-const DIRECTIONS: usize = 4000;
 
 /// A figure that can be computed.
 #[derive(Serialize, ToSchema)]
@@ -125,12 +123,14 @@ pub(crate) async fn figure(
     JsonOrCsv(format): JsonOrCsv,
     known: Known,
     deadline: Deadline,
-    Path(id): Path<String>,
+    id: Result<Path<String>, PathRejection>,
     Query(query): Query<FigureQuery>,
 ) -> Result<Response, Problem> {
-    let figure = find(&id).ok_or_else(no_figure)?;
+    // An id that is not UTF-8 is the id of no figure.
+    let figure = id.ok().and_then(|Path(id)| find(&id)).ok_or_else(no_figure)?;
     let log10 = query.log10.unwrap_or(false);
-    let body = compute::run(deadline, DIRECTIONS, move || draw(figure, format, log10)).await??;
+    // Every figure has hundreds of directions at least: none is worth holding up connections for.
+    let body = compute::blocking(deadline, move || draw(figure, format, log10)).await??;
     Ok(tagged(&known, format.content_type(), body))
 }
 
