@@ -7,7 +7,7 @@ use reflectance::reflectance::diagram::{Division, Sweep, SweepAxis};
 use reflectance::reflectance::evaluate::{Output, Quantity};
 use reflectance::reflectance::figures;
 use reflectance::reflectance::numeric::lobe_series::Method;
-use reflectance::reflectance::quantity::{Azimuth, Quantity as _};
+use reflectance::reflectance::quantity::Quantity as InRange;
 use reflectance::reflectance::scene::Scene;
 use std::hint::black_box;
 
@@ -17,12 +17,12 @@ fn curves(criterion: &mut Criterion) {
     for (id, axis) in [("11f", SweepAxis::ThetaR), ("13a", SweepAxis::ThetaR), ("23c", SweepAxis::ThetaI)] {
         let sweep = Sweep::new(
             axis,
-            (-89.5, 89.5),
-            Division::Step(0.5),
-            vec![30.0],
-            Azimuth::new(0.0).expect("0 is an azimuth"),
+            (in_range(-89.5), in_range(89.5)),
+            Division::Step(in_range(0.5)),
+            vec![in_range(30.0)],
+            in_range(0.0),
         )
-        .expect("a sweep in range");
+        .expect("a sweep that fits together");
         let mut panels = figures::find(id).expect("a figure").evaluate(false).expect("a preset");
         let scene = panels.remove(0).scene.expect("a scene");
         let mut group = criterion.benchmark_group(format!("figure {id}"));
@@ -37,6 +37,10 @@ fn curves(criterion: &mut Criterion) {
         }
         group.finish();
     }
+}
+
+fn in_range<Q: InRange>(value: f64) -> Q {
+    Q::new(value).expect("a number in range")
 }
 
 fn by(scene: &Scene, method: Method) -> Scene {

@@ -3,7 +3,9 @@
 use super::bounds::{self, Bounds};
 use super::directions::{Angles, Directions};
 use super::evaluate::{Output, Quantity, evaluate};
-use super::quantity::{Azimuth, OutOfBounds, Quantity as _, SourceZenith, ViewerZenith};
+use super::quantity::{
+    Azimuth, OutOfBounds, Quantity as _, SourceZenith, SweepAngle, SweepStep, ViewerZenith,
+};
 use super::scene::Scene;
 use super::table::{Column, Curve, Table};
 
@@ -46,7 +48,7 @@ impl SweepAxis {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Division {
     /// From the start in steps of this many degrees, while the end is not passed.
-    Step(f64),
+    Step(SweepStep),
     /// This many points, both ends among them.
     Points(usize),
 }
@@ -54,14 +56,8 @@ pub enum Division {
 /// What is wrong with a sweep or its fixed angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DiagramError {
-    /// Where the sweep starts.
-    From(OutOfBounds),
-    /// Where it ends.
-    To(OutOfBounds),
     /// It ends before it starts.
     EndsBeforeStart,
-    /// The step.
-    Step(OutOfBounds),
     /// Fewer than one point, more than one for a sweep without length, or too many.
     Points {
         /// How many there would be.
@@ -95,63 +91,99 @@ pub struct Sweep {
     phi_r: Azimuth,
 }
 
+/// The parts of a sweep, each None where it is not known: the rest can be checked all the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepParts {
+    /// Which angle runs.
+    pub axis: Option<SweepAxis>,
+    /// Where it starts. A negative θ_i stands for the same zenith on the viewer's side, so that both angles may
+    /// run from −90° to 90°.
+    pub from: Option<SweepAngle>,
+    /// Where it ends.
+    pub to: Option<SweepAngle>,
+    /// How it is divided.
+    pub division: Option<Division>,
+    /// The fixed angles: θ_i or θ_r.
+    pub at: Option<Vec<Option<ViewerZenith>>>,
+    /// φ_r.
+    pub phi_r: Option<Azimuth>,
+}
+
+impl SweepParts {
+    /// All that is wrong with what is known.
+    pub fn errors(&self) -> Vec<DiagramError> {
+        let mut errors = Vec::new();
+        let curves = self.at.as_ref().map(Vec::len);
+        if let Some(curves) = curves.filter(|&curves| curves == 0 || curves > bounds::MAX_CURVES) {
+            errors.push(DiagramError::Curves { curves });
+        }
+        if let Some(axis) = self.axis {
+            let bounds = axis.fixed_bounds();
+            for (position, at) in self.at.iter().flatten().enumerate() {
+                if let Some(value) = at.map(ViewerZenith::get).filter(|&value| !bounds.contains(value)) {
+                    errors.push(DiagramError::At { position, error: OutOfBounds { value, bounds } });
+                }
+            }
+        }
+        let (Some(from), Some(to)) = (self.from.map(SweepAngle::get), self.to.map(SweepAngle::get)) else {
+            return errors;
+        };
+        if from > to {
+            errors.push(DiagramError::EndsBeforeStart);
+        } else if let Some(division) = self.division {
+            let points = division.points(from, to);
+            let rows = points.saturating_mul(curves.unwrap_or(1));
+            if points == 0 || points > bounds::MAX_SWEEP_POINTS || (points == 1 && from != to) {
+                errors.push(DiagramError::Points { points });
+            } else if rows > bounds::MAX_DIRECTIONS {
+                errors.push(DiagramError::TooManyRows { rows });
+            }
+        }
+        errors
+    }
+
+    /// The sweep, if every part is known and nothing is wrong.
+    pub fn complete(self) -> Option<Sweep> {
+        let at = self.at?.into_iter().collect::<Option<_>>()?;
+        Sweep::new(self.axis?, (self.from?, self.to?), self.division?, at, self.phi_r?).ok()
+    }
+}
+
 impl Sweep {
-    /// Checks a sweep; all that is wrong comes back at once. A negative θ_i stands for the same
-    /// zenith on the viewer's side, so that both angles may run from −90° to 90°.
+    /// Checks the parts against each other; all that is wrong comes back at once.
     pub fn new(
         axis: SweepAxis,
-        (from, to): (f64, f64),
+        (from, to): (SweepAngle, SweepAngle),
+        division: Division,
+        at: Vec<ViewerZenith>,
+        phi_r: Azimuth,
+    ) -> Result<Self, Vec<DiagramError>> {
+        let fixed = at.iter().map(|at| at.get()).collect();
+        let errors = SweepParts {
+            axis: Some(axis),
+            from: Some(from),
+            to: Some(to),
+            division: Some(division),
+            at: Some(at.into_iter().map(Some).collect()),
+            phi_r: Some(phi_r),
+        }
+        .errors();
+        if errors.is_empty() {
+            Ok(Self::divided(axis, (from, to), division, fixed, phi_r))
+        } else {
+            Err(errors)
+        }
+    }
+
+    /// A sweep whose parts fit together.
+    pub(super) fn divided(
+        axis: SweepAxis,
+        (from, to): (SweepAngle, SweepAngle),
         division: Division,
         at: Vec<f64>,
         phi_r: Azimuth,
-    ) -> Result<Self, Vec<DiagramError>> {
-        let mut errors = Vec::new();
-        let outside = |value, bounds: &'static Bounds| OutOfBounds { value, bounds };
-        if !bounds::SWEEP_ANGLE.contains(from) {
-            errors.push(DiagramError::From(outside(from, &bounds::SWEEP_ANGLE)));
-        }
-        if !bounds::SWEEP_ANGLE.contains(to) {
-            errors.push(DiagramError::To(outside(to, &bounds::SWEEP_ANGLE)));
-        }
-        if from > to {
-            errors.push(DiagramError::EndsBeforeStart);
-        }
-        if at.is_empty() || at.len() > bounds::MAX_CURVES {
-            errors.push(DiagramError::Curves { curves: at.len() });
-        }
-        for (position, &value) in at.iter().enumerate() {
-            if !axis.fixed_bounds().contains(value) {
-                errors.push(DiagramError::At { position, error: outside(value, axis.fixed_bounds()) });
-            }
-        }
-        if let Division::Step(step) = division
-            && !bounds::SWEEP_STEP.contains(step)
-        {
-            errors.push(DiagramError::Step(outside(step, &bounds::SWEEP_STEP)));
-        }
-        if !errors.is_empty() {
-            return Err(errors);
-        }
-        let points = division.points(from, to);
-        if points == 0 || points > bounds::MAX_SWEEP_POINTS || (points == 1 && from != to) {
-            return Err(vec![DiagramError::Points { points }]);
-        }
-        let rows = points * at.len();
-        if rows > bounds::MAX_DIRECTIONS {
-            return Err(vec![DiagramError::TooManyRows { rows }]);
-        }
-        Ok(Self { axis, positions: division.positions(from, to, points), at, phi_r })
-    }
-
-    /// A sweep of this crate's own making, in range by construction.
-    pub(super) fn preset(
-        axis: SweepAxis,
-        (from, to): (f64, f64),
-        step: f64,
-        at: Vec<f64>,
-        phi_r: Azimuth,
     ) -> Self {
-        let division = Division::Step(step);
+        let (from, to) = (from.get(), to.get());
         let points = division.points(from, to);
         Self { axis, positions: division.positions(from, to, points), at, phi_r }
     }
@@ -214,7 +246,7 @@ impl Division {
                     clippy::cast_sign_loss,
                     reason = "0 to 1.8e8: the step is at least 1e-6 of 180 degrees"
                 )]
-                let steps = ((to - from) / step + 1e-9).floor() as usize;
+                let steps = ((to - from) / step.get() + 1e-9).floor() as usize;
                 steps + 1
             }
         }
@@ -222,7 +254,7 @@ impl Division {
 
     fn positions(self, from: f64, to: f64, points: usize) -> Vec<f64> {
         let at = |index: usize| match self {
-            Self::Step(step) => (from + index as f64 * step).min(to),
+            Self::Step(step) => (from + index as f64 * step.get()).min(to),
             Self::Points(_) if index + 1 == points => to,
             Self::Points(_) => from + (to - from) * index as f64 / (points - 1) as f64,
         };
@@ -232,42 +264,66 @@ impl Division {
 
 #[cfg(test)]
 mod tests {
-    use super::{DiagramError, Division, Sweep, SweepAxis};
-    use crate::reflectance::quantity::{Azimuth, Quantity};
+    use super::{DiagramError, Division, Sweep, SweepAxis, SweepParts};
+    use crate::reflectance::quantity::{Azimuth, Quantity, SweepAngle, SweepStep, ViewerZenith};
 
-    fn sweep(from: f64, to: f64, division: Division, at: Vec<f64>) -> Result<Sweep, Vec<DiagramError>> {
-        Sweep::new(SweepAxis::ThetaR, (from, to), division, at, Azimuth::new(0.0).unwrap())
+    fn step(degrees: f64) -> Division {
+        Division::Step(SweepStep::new(degrees).unwrap())
+    }
+
+    fn parts(from: f64, to: f64, division: Division, at: &[f64]) -> SweepParts {
+        SweepParts {
+            axis: Some(SweepAxis::ThetaR),
+            from: SweepAngle::new(from).ok(),
+            to: SweepAngle::new(to).ok(),
+            division: Some(division),
+            at: Some(at.iter().map(|&at| ViewerZenith::new(at).ok()).collect()),
+            phi_r: Azimuth::new(0.0).ok(),
+        }
+    }
+
+    fn sweep(from: f64, to: f64, division: Division, at: f64) -> Sweep {
+        parts(from, to, division, &[at]).complete().unwrap()
     }
 
     #[test]
     fn steps_hit_both_ends_and_the_angles_between() {
-        let by_step = sweep(-89.5, 89.5, Division::Step(0.5), vec![30.0]).unwrap();
+        let by_step = sweep(-89.5, 89.5, step(0.5), 30.0);
         assert_eq!(by_step.positions.len(), 359);
         assert_eq!(by_step.positions[358], 89.5);
         assert_eq!(by_step.positions[239], 30.0);
-        let decimal = sweep(0.0, 90.0, Division::Step(0.1), vec![30.0]).unwrap();
+        let decimal = sweep(0.0, 90.0, step(0.1), 30.0);
         assert_eq!((decimal.positions.len(), decimal.positions[900]), (901, 90.0));
-        let by_points = sweep(-90.0, 90.0, Division::Points(3), vec![30.0]).unwrap();
+        let by_points = sweep(-90.0, 90.0, Division::Points(3), 30.0);
         assert_eq!(by_points.positions, [-90.0, 0.0, 90.0]);
-        assert_eq!(sweep(5.0, 5.0, Division::Points(1), vec![0.0]).unwrap().positions, [5.0]);
+        assert_eq!(sweep(5.0, 5.0, Division::Points(1), 0.0).positions, [5.0]);
     }
 
     #[test]
     fn everything_wrong_is_told_at_once() {
-        let errors = sweep(-91.0, 95.0, Division::Step(0.0), vec![10.0, -1.0, f64::NAN]).unwrap_err();
-        assert_eq!(errors.len(), 5, "{errors:?}");
-        assert_eq!(sweep(3.0, 2.0, Division::Step(1.0), vec![]).unwrap_err().len(), 2);
+        assert_eq!(parts(3.0, 2.0, step(1.0), &[]).errors().len(), 2);
         assert_eq!(
-            sweep(0.0, 90.0, Division::Step(1e-6), vec![1.0]).unwrap_err(),
+            parts(0.0, 90.0, step(1e-6), &[1.0]).errors(),
             [DiagramError::Points { points: 90_000_001 }]
         );
         assert_eq!(
-            sweep(0.0, 90.0, Division::Points(600_000), vec![1.0, 2.0]).unwrap_err(),
+            parts(0.0, 90.0, Division::Points(600_000), &[1.0, 2.0]).errors(),
             [DiagramError::TooManyRows { rows: 1_200_000 }]
         );
         assert_eq!(
-            sweep(0.0, 90.0, Division::Points(1), vec![1.0]).unwrap_err(),
+            parts(0.0, 90.0, Division::Points(1), &[1.0]).errors(),
             [DiagramError::Points { points: 1 }]
         );
+    }
+
+    #[test]
+    fn nothing_is_concluded_from_what_is_not_known() {
+        let unknown_end = parts(0.0, 91.0, step(1e-6), &[f64::NAN, -1.0]);
+        let [DiagramError::At { position: 1, .. }] = unknown_end.errors()[..] else {
+            panic!("{:?}", unknown_end.errors())
+        };
+        let unknown_axis = SweepParts { axis: None, ..parts(0.0, 90.0, step(1.0), &[-1.0]) };
+        assert!(unknown_axis.errors().is_empty());
+        assert_eq!(unknown_axis.complete(), None);
     }
 }

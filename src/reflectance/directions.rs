@@ -80,14 +80,22 @@ impl Directions {
         theta_r: Angles<ViewerZenith>,
         phi_r: Angles<Azimuth>,
     ) -> Result<Self, Vec<DirectionsError>> {
-        let lengths = [
-            (DirectionAngle::ThetaI, theta_i.len()),
-            (DirectionAngle::ThetaR, theta_r.len()),
-            (DirectionAngle::PhiR, phi_r.len()),
-        ];
-        let expected = lengths.iter().find_map(|(_, length)| *length);
+        let lengths = [theta_i.len(), theta_r.len(), phi_r.len()];
+        let errors = Self::length_errors(lengths);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let count = lengths.into_iter().flatten().next().unwrap_or(1);
+        Ok(Self { theta_i, theta_r, phi_r, count })
+    }
+
+    /// What is wrong with the lengths of the arrays of θ_i, θ_r and φ_r; None for one that is no array, or whose
+    /// length is not known.
+    pub fn length_errors(lengths: [Option<usize>; 3]) -> Vec<DirectionsError> {
+        let angles = [DirectionAngle::ThetaI, DirectionAngle::ThetaR, DirectionAngle::PhiR];
+        let expected = lengths.into_iter().flatten().next();
         let mut errors = Vec::new();
-        for (angle, length) in lengths {
+        for (angle, length) in angles.into_iter().zip(lengths) {
             let Some(length) = length else { continue };
             if length == 0 {
                 errors.push(DirectionsError::Empty { angle });
@@ -97,11 +105,7 @@ impl Directions {
                 errors.push(DirectionsError::UnequalLength { angle, length, expected });
             }
         }
-        if errors.is_empty() {
-            Ok(Self { theta_i, theta_r, phi_r, count: expected.unwrap_or(1) })
-        } else {
-            Err(errors)
-        }
+        errors
     }
 
     /// A curve: as many source as viewer zeniths, at least one.

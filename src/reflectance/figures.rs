@@ -3,14 +3,15 @@
 //! Where a caption is silent (errata E28): θ = 10, 30, 45, 60°, X = Y = 10, footprint 400,
 //! irradiance 1; and for Torrance-Sparrow c·a_f = 1, F = 1 and G = 1, as the text assumes.
 
-use super::diagram::{Sweep, SweepAxis};
+use super::diagram::{Division, Sweep, SweepAxis};
 use super::evaluate::{Output, Quantity};
 use super::figure_scenes::{beckmann_spizzichino, components_of_section_5, torrance_sparrow};
 use super::fresnel::{Medium, RefractiveIndex};
 use super::geometry::Geometry;
 use super::numeric::lobe_series::Method;
 use super::quantity::{
-    Azimuth, FacetSlope, IndexK, IndexN, OutOfBounds, Quantity as _, SourceZenith, ViewerZenith,
+    Azimuth, FacetSlope, IndexK, IndexN, OutOfBounds, Quantity as _, SourceZenith, SweepAngle, SweepStep,
+    ViewerZenith,
 };
 use super::scene::{Component, Scene};
 use super::shadowing::Shadowing;
@@ -281,7 +282,9 @@ fn over_source() -> Result<Sweep, OutOfBounds> {
 }
 
 fn sweep(axis: SweepAxis, ends: (f64, f64), step: f64, at: &[f64]) -> Result<Sweep, OutOfBounds> {
-    Ok(Sweep::preset(axis, ends, step, at.to_vec(), Azimuth::new(0.0)?))
+    let ends = (SweepAngle::new(ends.0)?, SweepAngle::new(ends.1)?);
+    let division = Division::Step(SweepStep::new(step)?);
+    Ok(Sweep::divided(axis, ends, division, at.to_vec(), Azimuth::new(0.0)?))
 }
 
 /// Figure 18: F′ of a dielectric and of a metal, parallel, perpendicular and unpolarized.

@@ -22,6 +22,7 @@ mod kernel;
 pub mod lambertian;
 pub mod linear_image;
 pub mod numeric;
+pub mod outline;
 pub mod quantity;
 pub mod radiometry;
 pub mod roughness;

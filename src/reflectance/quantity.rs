@@ -109,6 +109,10 @@ quantities! {
     SpikeWidth in SPIKE_WIDTH;
     /// Relative tolerance.
     Tolerance in TOLERANCE;
+    /// An end of a sweep, degrees.
+    SweepAngle in SWEEP_ANGLE;
+    /// The step of a sweep, degrees.
+    SweepStep in SWEEP_STEP;
 }
 
 impl Fraction {

@@ -4,6 +4,7 @@
 use super::degrees::SinCos;
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
+use super::outline::{Outline, SceneError};
 use super::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, RmsHeight, SpecularScale,
     Tolerance, Wavelength,
@@ -199,48 +200,6 @@ pub struct SceneParameters {
     pub accuracy: Accuracy,
 }
 
-/// A parameter by the name the core knows it by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each is a field of SceneParameters")]
-pub enum Parameter {
-    RmsHeight,
-    CorrelationLength,
-    FacetSlope,
-    Wavelength,
-    Sensor,
-    Components,
-}
-
-/// Why parameters that are each in range do not make a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SceneError {
-    /// A parameter that the model or a component needs is absent.
-    Missing {
-        /// Which.
-        parameter: Parameter,
-        /// What needs it.
-        needed_by: &'static str,
-    },
-    /// The model has no such component.
-    NotInModel {
-        /// Position in the list of components.
-        position: usize,
-        /// Which component.
-        component: Component,
-        /// Of this model.
-        model: Model,
-    },
-    /// A component is named twice.
-    Repeated {
-        /// Position in the list of components.
-        position: usize,
-        /// Which component.
-        component: Component,
-    },
-    /// The list of components is empty.
-    NoComponents,
-}
-
 /// A scene whose parameters fit together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -254,33 +213,16 @@ pub struct Scene {
 impl Scene {
     /// Checks the parameters against each other; all that is wrong comes back at once.
     pub fn new(parameters: SceneParameters) -> Result<Self, Vec<SceneError>> {
-        let mut errors = Vec::new();
-        let model = parameters.model;
-        let in_model = model.components();
-        let evaluated: Vec<Component> = match &parameters.components {
-            Components::Auto => in_model
-                .iter()
-                .copied()
-                .filter(|&c| c != Component::SpecularSpike || parameters.sensor.is_some())
-                .collect(),
-            Components::Named(named) => {
-                if named.is_empty() {
-                    errors.push(SceneError::NoComponents);
-                }
-                for (position, &component) in named.iter().enumerate() {
-                    if !in_model.contains(&component) {
-                        errors.push(SceneError::NotInModel { position, component, model });
-                    } else if named[..position].contains(&component) {
-                        errors.push(SceneError::Repeated { position, component });
-                    }
-                }
-                in_model.iter().copied().filter(|c| named.contains(c)).collect()
-            }
-        };
-        errors.extend(missing(&parameters, &evaluated));
+        let outline = Outline::of(&parameters);
+        let errors = outline.errors();
         if !errors.is_empty() {
             return Err(errors);
         }
+        let evaluated = outline
+            .components
+            .as_ref()
+            .map(|listed| outline.evaluated(parameters.model, listed))
+            .unwrap_or_default();
         let facet_slope_radians = facet_slope_radians(&parameters.surface);
         Ok(Self { parameters, evaluated, facet_slope_radians })
     }
@@ -320,63 +262,4 @@ fn facet_slope_radians(surface: &Surface) -> Option<f64> {
     }
     let (height, length) = (surface.rms_height?, surface.correlation_length?);
     Some(roughness::facet_slope_radians(height.get() / length.get()))
-}
-
-/// The parameters that the evaluated components need and the caller left out.
-fn missing(p: &SceneParameters, evaluated: &[Component]) -> Vec<SceneError> {
-    let lobe = evaluated.contains(&Component::SpecularLobe);
-    let spike = evaluated.contains(&Component::SpecularSpike);
-    let height_lobe = lobe && p.model == Model::BeckmannSpizzichino;
-    let facet_lobe = lobe && !height_lobe && p.surface.facet_slope.is_none();
-    // Spike and lobe share the reflected energy by e^{-g} unless the caller scales the lobe.
-    let shared_lobe = lobe && p.model == Model::Unified && p.surface.specular_scale.is_none();
-    let needs = [
-        (
-            Parameter::RmsHeight,
-            p.surface.rms_height.is_none(),
-            if height_lobe {
-                Some("the Beckmann-Spizzichino specular lobe")
-            } else if spike {
-                Some("the specular spike")
-            } else if shared_lobe {
-                Some("the unified model's specular lobe, unless specular_scale is given")
-            } else if facet_lobe {
-                Some("the facet slope by (79), unless facet_slope_deg is given")
-            } else {
-                None
-            },
-        ),
-        (
-            Parameter::CorrelationLength,
-            p.surface.correlation_length.is_none(),
-            if height_lobe {
-                Some("the Beckmann-Spizzichino specular lobe")
-            } else if facet_lobe {
-                Some("the facet slope by (79), unless facet_slope_deg is given")
-            } else {
-                None
-            },
-        ),
-        (
-            Parameter::Wavelength,
-            p.illumination.wavelength.is_none(),
-            if height_lobe {
-                Some("the Beckmann-Spizzichino specular lobe")
-            } else if spike {
-                Some("the specular spike")
-            } else if shared_lobe {
-                Some("the unified model's specular lobe, unless specular_scale is given")
-            } else {
-                None
-            },
-        ),
-        (Parameter::Sensor, p.sensor.is_none(), spike.then_some("the specular spike")),
-    ];
-    needs
-        .into_iter()
-        .filter(|(_, absent, _)| *absent)
-        .filter_map(|(parameter, _, needed_by)| {
-            Some(SceneError::Missing { parameter, needed_by: needed_by? })
-        })
-        .collect()
 }

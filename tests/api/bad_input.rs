@@ -115,7 +115,7 @@ fn a_choice_that_is_wrong_has_its_pointer_and_its_code() {
                 "/sensor",
                 json!({"footprint_um2": 1, "patch_half_x_um": 1, "patch_half_y_um": 1, "aperture_um": 1}),
             )],
-            vec![("/sensor/aperture_um", "unknown_field")],
+            vec![("/sensor/aperture_um", "inconsistent")],
         ),
         (
             vec![("/illumination/polarization", json!({"parallel": 0.7, "perpendicular": 0.7}))],
@@ -281,12 +281,16 @@ fn queries_are_checked_as_bodies_are() {
         (
             "/v1/roughness?facet_slope_deg=nan&beckmann_alpha=x",
             vec![
-                ("", "inconsistent"),
+                ("/beckmann_alpha", "inconsistent"),
                 ("/beckmann_alpha", "wrong_type"),
+                ("/facet_slope_deg", "inconsistent"),
                 ("/facet_slope_deg", "out_of_range"),
             ],
         ),
-        ("/v1/roughness?facet_slope_deg=1&beckmann_alpha=1", vec![("", "inconsistent")]),
+        (
+            "/v1/roughness?facet_slope_deg=1&beckmann_alpha=1",
+            vec![("/beckmann_alpha", "inconsistent"), ("/facet_slope_deg", "inconsistent")],
+        ),
         ("/v1/roughness?rms_height_um=1", vec![("/correlation_length_um", "required")]),
         (
             "/v1/roughness?correlation_length_um=1&x=1&y=2",
@@ -307,7 +311,7 @@ fn queries_are_checked_as_bodies_are() {
         ),
         (
             "/v1/diagrams?model=lambertian&sweep=theta_r_deg&from_deg=0&to_deg=10&at_deg=-10&step_deg=1&points=4",
-            vec![("/points", "inconsistent")],
+            vec![("/at_deg/0", "out_of_range"), ("/points", "inconsistent")],
         ),
         (
             "/v1/diagrams?model=lambertian&sweep=theta_r_deg&from_deg=0&to_deg=10&at_deg=-10",
@@ -368,7 +372,7 @@ fn linear_models_ask_for_their_own_strengths() {
             json!({"model": "lambertian", "surface": {}, "illumination": {}, "geometry": geometry}),
             vec![("/sensor", "required")],
         ),
-        (json!({"model": "phong"}), vec![("/model", "unknown_value")]),
+        (json!({"model": "phong"}), vec![("/geometry", "required"), ("/model", "unknown_value")]),
     ] {
         let document = problem(server.post("/v1/image-irradiance", body.to_string()), 422);
         let expected: Vec<_> = expected.iter().map(|(p, c)| ((*p).to_owned(), (*c).to_owned())).collect();

@@ -1,5 +1,6 @@
 //! The service from outside: the real binary over real HTTP.
 
+mod at_once;
 mod bad_input;
 mod command_line;
 mod diagrams;

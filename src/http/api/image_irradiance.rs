@@ -4,14 +4,15 @@
 use super::answer::{Answer, DiagnosticAnswer};
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
+use super::scene::describes_patch;
 use crate::http::body::JsonBody;
 use crate::http::compute;
 use crate::http::encode::json;
 use crate::http::encode::numbers::Numbers;
-use crate::http::input::node::Node;
+use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::Reader;
-use crate::http::input::wire::{Schemas, Wire, named};
+use crate::http::input::reader::{Fields, Reader};
+use crate::http::input::wire::{Named, Schemas, Wire, mismatch, named, read_named};
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
 use crate::http::track::Deadline;
@@ -92,29 +93,25 @@ pub(crate) enum ImageRequest {
 
 impl Wire for ImageRequest {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        match model_name(&node) {
-            Some("fixed_source") => {
-                let wire = FixedSourceWire::read(node, reader)?;
+        let Node::Object(object) = node else { return no_object(&node, reader) };
+        let model = object.fields.iter().find(|(name, _)| name == "model").map(|(_, node)| node);
+        let model = reader.within("model", |reader| match model {
+            Some(node) => read_named::<ImageModel>(node, reader),
+            None => reader.fail(Code::Required, "required"),
+        });
+        match model {
+            Some(ImageModel::Linear(LinearKind::FixedSource)) => {
+                let wire = FixedSourceWire::read(Node::Object(object), reader)?;
                 Some(linear([wire.C_dl, wire.C_sl, wire.C_ss], wire.linear))
             }
-            Some("fixed_view") => {
-                let wire = FixedViewWire::read(node, reader)?;
+            Some(ImageModel::Linear(LinearKind::FixedView)) => {
+                let wire = FixedViewWire::read(Node::Object(object), reader)?;
                 Some(linear([wire.K_dl, wire.K_sl, wire.K_ss], wire.linear))
             }
-            Some(name) if Model::ALL.iter().all(|model| model.name() != name) => {
-                let models = Model::ALL.iter().map(|model| model.name()).collect::<Vec<_>>().join(", ");
-                let name = crate::http::input::node::excerpt(name);
-                let detail =
-                    format!("\"{name}\" is not a model: expected one of fixed_source, fixed_view, {models}");
-                reader.within("model", |reader| reader.fail(Code::UnknownValue, detail))
-            }
-            _ => {
-                let request = Box::new(RadianceRequest::read(node, reader)?);
-                let Some(Sensor::Camera(camera)) = request.scene.0.parameters().sensor else {
-                    let detail = "required: a camera with pixel_area_um2, distance_um, focal_length_um and aperture_um";
-                    return reader.within("sensor", |reader| reader.fail(Code::Required, detail));
-                };
-                Some(Self::Camera { request, factor: camera.optics().image_irradiance_factor() })
+            Some(ImageModel::Of(_)) => camera(object, reader),
+            None => {
+                without_model(object, reader);
+                None
             }
         }
     }
@@ -150,12 +147,71 @@ impl ToSchema for ImageRequest {
     }
 }
 
-fn model_name(node: &Node) -> Option<&str> {
-    let Node::Object(object) = node else { return None };
-    object.fields.iter().find_map(|(name, value)| match value {
-        Node::Text(text) if name == "model" => Some(text.as_str()),
-        _ => None,
-    })
+/// The models that the resource takes.
+#[derive(Clone, Copy)]
+enum ImageModel {
+    Linear(LinearKind),
+    Of(Model),
+}
+
+impl Named for ImageModel {
+    const WHAT: &'static str = "a model";
+    const ALL: &'static [Self] = &[
+        Self::Linear(LinearKind::FixedSource),
+        Self::Linear(LinearKind::FixedView),
+        Self::Of(Model::BeckmannSpizzichino),
+        Self::Of(Model::TorranceSparrow),
+        Self::Of(Model::Lambertian),
+        Self::Of(Model::Unified),
+    ];
+
+    fn wire_name(self) -> &'static str {
+        match self {
+            Self::Linear(kind) => kind.name(),
+            Self::Of(model) => model.name(),
+        }
+    }
+}
+
+fn no_object(node: &Node, reader: &mut Reader) -> Option<ImageRequest> {
+    let expected = "an object: a radiance request with a camera, or a linear model";
+    reader.fail(Code::WrongType, mismatch(node, &expected))
+}
+
+/// Reads what does not depend on the model.
+fn without_model(object: Object, reader: &mut Reader) {
+    let mut fields = Fields::new(object);
+    fields.take_named::<CheckedDirections>(reader, "geometry");
+    let mut accepted = RadianceRequest::names();
+    for name in FixedSourceWire::names().into_iter().chain(FixedViewWire::names()) {
+        if !accepted.contains(&name) {
+            accepted.push(name);
+        }
+    }
+    fields.forget(&accepted);
+    fields.finish(reader, &accepted);
+}
+
+/// Reads a radiance request whose sensor has to be a camera.
+fn camera(object: Object, reader: &mut Reader) -> Option<ImageRequest> {
+    let sensor = object.fields.iter().find(|(name, _)| name == "sensor").map(|(_, node)| node);
+    let needed = "a camera with pixel_area_um2, distance_um, focal_length_um and aperture_um";
+    let fault = match sensor {
+        None | Some(Node::Null) => Some((Code::Required, format!("required: {needed}"))),
+        Some(Node::Object(sensor)) if describes_patch(sensor) => {
+            Some((Code::Inconsistent, format!("a patch has no lens: expected {needed}")))
+        }
+        Some(_) => None,
+    };
+    let request = RadianceRequest::read(Node::Object(object), reader);
+    if let Some((code, detail)) = fault
+        && !reader.has_noted("/sensor")
+    {
+        reader.within("sensor", |reader| reader.error(code, detail));
+    }
+    let request = Box::new(request?);
+    let Some(Sensor::Camera(camera)) = request.scene.0.parameters().sensor else { return None };
+    Some(ImageRequest::Camera { request, factor: camera.optics().image_irradiance_factor() })
 }
 
 fn linear([diffuse_lobe, specular_lobe, specular_spike]: [Strength; 3], wire: LinearWire) -> ImageRequest {

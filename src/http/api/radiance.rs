@@ -9,6 +9,7 @@ use crate::http::encode::json;
 use crate::http::input::node::Node;
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::Reader;
+use crate::http::input::values::AnglesWire;
 use crate::http::input::wire::{Schemas, Wire};
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
@@ -21,15 +22,16 @@ use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::Schema;
 
 object! {
+    partial
     /// The directions: each angle one number, or an array with one number a direction. All arrays have one
     /// length; numbers hold for every direction.
     GeometryWire as "Geometry" {
         /// θ_i, degrees.
-        theta_i_deg: Angles<SourceZenith>,
+        theta_i_deg: AnglesWire<SourceZenith>,
         /// θ_r, degrees. Negative means the same zenith at φ_r + 180.
-        theta_r_deg: Angles<ViewerZenith>,
+        theta_r_deg: AnglesWire<ViewerZenith>,
         /// φ_r, degrees; 0 when absent or null: the half plane that holds the mirror direction.
-        phi_r_deg: Option<Angles<Azimuth>>,
+        phi_r_deg: Option<AnglesWire<Azimuth>>,
     }
 }
 
@@ -59,16 +61,20 @@ pub(crate) struct CheckedDirections(pub(crate) Directions);
 impl Wire for CheckedDirections {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let wire = GeometryWire::read(node, reader)?;
-        let phi_r = wire.phi_r_deg.or_else(|| Azimuth::new(0.0).ok().map(Angles::One))?;
-        match Directions::new(wire.theta_i_deg, wire.theta_r_deg, phi_r) {
-            Ok(directions) => Some(Self(directions)),
-            Err(errors) => {
-                for error in errors {
-                    note(error, reader);
-                }
-                None
-            }
+        let lengths = [
+            wire.theta_i_deg.as_ref().and_then(|angles| angles.length),
+            wire.theta_r_deg.as_ref().and_then(|angles| angles.length),
+            wire.phi_r_deg.iter().flatten().find_map(|angles| angles.length),
+        ];
+        for error in Directions::length_errors(lengths) {
+            note(error, reader);
         }
+        let phi_r = match wire.phi_r_deg? {
+            Some(phi_r) => phi_r.angles?,
+            None => Angles::One(Azimuth::new(0.0).ok()?),
+        };
+        // What is wrong with the lengths was just noted.
+        Directions::new(wire.theta_i_deg?.angles?, wire.theta_r_deg?.angles?, phi_r).ok().map(Self)
     }
 
     fn schema() -> RefOr<Schema> {

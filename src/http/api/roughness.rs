@@ -5,7 +5,7 @@ use crate::http::encode::json;
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::query::Query;
 use crate::http::input::reader::{Fields, Reader};
-use crate::http::input::wire::{Parameter, Schemas};
+use crate::http::input::wire::{Parameter, Schemas, is_given};
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
 use crate::reflectance::degrees::SinCos;
@@ -21,6 +21,7 @@ use utoipa::ToSchema;
 use utoipa::openapi::schema::ObjectBuilder;
 
 object! {
+    partial
     /// A roughness in one of three measures.
     WidthsWire as "RoughnessMeasures" {
         /// σ_h, micrometres. With `correlation_length_um`.
@@ -33,6 +34,9 @@ object! {
         beckmann_alpha: Option<BeckmannAlpha>,
     }
 }
+
+/// The three measures, for messages.
+const MEASURES: &str = "rms_height_um with correlation_length_um, or facet_slope_deg, or beckmann_alpha";
 
 /// One measure of the three.
 #[derive(Clone, Copy, Debug)]
@@ -48,29 +52,41 @@ impl WireObject for Measure {
 
     fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
         let wire = WidthsWire::take(fields, reader)?;
-        let heights = wire.rms_height_um.is_some() || wire.correlation_length_um.is_some();
-        let given = usize::from(heights)
-            + usize::from(wire.facet_slope_deg.is_some())
-            + usize::from(wire.beckmann_alpha.is_some());
-        if given > 1 {
-            let detail = "give one measure only: rms_height_um with correlation_length_um, or facet_slope_deg, or beckmann_alpha";
-            return reader.fail(Code::Inconsistent, detail);
+        let (height, length) = (is_given(&wire.rms_height_um), is_given(&wire.correlation_length_um));
+        let (slope, alpha) = (is_given(&wire.facet_slope_deg), is_given(&wire.beckmann_alpha));
+        let measures = usize::from(height || length) + usize::from(slope) + usize::from(alpha);
+        if measures == 0 {
+            return reader.fail(Code::Required, format!("required: one measure, {MEASURES}"));
         }
-        match wire {
-            WidthsWire { rms_height_um: Some(height), correlation_length_um: Some(length), .. } => {
-                Some(Self::Heights(height, length))
+        if measures > 1 {
+            let given = [
+                (height, "rms_height_um"),
+                (length, "correlation_length_um"),
+                (slope, "facet_slope_deg"),
+                (alpha, "beckmann_alpha"),
+            ];
+            for (_, name) in given.into_iter().filter(|(given, _)| *given) {
+                let detail = format!("one of several measures: give one only, {MEASURES}");
+                reader.within(name, |reader| reader.error(Code::Inconsistent, detail));
             }
-            WidthsWire { facet_slope_deg: Some(slope), .. } => Some(Self::FacetSlope(slope)),
-            WidthsWire { beckmann_alpha: Some(alpha), .. } => Some(Self::BeckmannAlpha(alpha)),
-            WidthsWire { rms_height_um: Some(_), .. } => reader
-                .within("correlation_length_um", |r| r.fail(Code::Required, "required: rms_height_um needs it")),
-            WidthsWire { correlation_length_um: Some(_), .. } => reader
-                .within("rms_height_um", |r| r.fail(Code::Required, "required: correlation_length_um needs it")),
-            WidthsWire { .. } => reader.fail(
-                Code::Required,
-                "give one measure: rms_height_um with correlation_length_um, or facet_slope_deg, or beckmann_alpha",
-            ),
+            return None;
         }
+        if slope {
+            return wire.facet_slope_deg?.map(Self::FacetSlope);
+        }
+        if alpha {
+            return wire.beckmann_alpha?.map(Self::BeckmannAlpha);
+        }
+        for (given, name, other) in [
+            (height, "rms_height_um", "correlation_length_um"),
+            (length, "correlation_length_um", "rms_height_um"),
+        ] {
+            if !given {
+                let detail = format!("required: {other} needs it");
+                reader.within(name, |reader| reader.error(Code::Required, detail));
+            }
+        }
+        Some(Self::Heights(wire.rms_height_um??, wire.correlation_length_um??))
     }
 
     fn names() -> Vec<&'static str> {

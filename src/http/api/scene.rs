@@ -1,18 +1,19 @@
 //! The description of a scene as requests carry it: model, surface, light, sensor, accuracy.
 
-use crate::http::input::node::Node;
+use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
-use crate::http::input::wire::{Parameter, Schemas, Wire, mismatch};
+use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
 use crate::http::problem::Code;
 use crate::reflectance::fresnel::{Medium, Polarization};
 use crate::reflectance::numeric::lobe_series::Method;
+use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError};
 use crate::reflectance::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
     SpecularScale, Tolerance, Wavelength,
 };
 use crate::reflectance::scene::{
-    self, Accuracy, CameraSensor, Components, Model, Scene, SceneError, SceneParameters, Sensor,
+    self, Accuracy, CameraSensor, Components, Model, Scene, SceneParameters, Sensor,
 };
 use crate::reflectance::shadowing::Shadowing;
 use utoipa::openapi::schema::{ObjectBuilder, Schema};
@@ -22,6 +23,7 @@ use utoipa::openapi::{OneOfBuilder, RefOr};
 const DEFAULT_TOLERANCE: f64 = 1e-9;
 
 object! {
+    partial
     /// The surface. Which of its fields are needed depends on the model and the components.
     SurfaceWire as "Surface" {
         /// σ_h, micrometres: the standard deviation of the Gaussian height density (4).
@@ -45,6 +47,7 @@ object! {
 }
 
 object! {
+    partial
     /// The light: a collimated beam.
     IlluminationWire as "Illumination" {
         /// λ, micrometres. Needed by the models that rest on the height statistics.
@@ -92,14 +95,19 @@ impl Wire for Sensor {
                 .fail(Code::WrongType, mismatch(&node, &"an object that describes a patch or a camera"));
         };
         let mut fields = Fields::new(object);
-        let camera = is_camera(&fields);
-        let sensor = take_sensor(camera, &mut fields, reader);
-        fields.finish(reader, &if camera { CameraWire::names() } else { PatchWire::names() });
+        let (patch, camera) = (PatchWire::names(), CameraWire::names());
+        let accepted = match (fields.has_any(&patch), fields.has_any(&camera)) {
+            (true, _) => patch,
+            (false, true) => camera,
+            (false, false) => [patch, camera].concat(),
+        };
+        let sensor = take_sensor(&mut fields, reader);
+        fields.finish(reader, &accepted);
         sensor
     }
 
     fn read_flat(_: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        take_sensor(is_camera(fields), fields, reader)
+        take_sensor(fields, reader)
     }
 
     fn is_given(_: &'static str, fields: &Fields) -> bool {
@@ -115,39 +123,69 @@ impl Wire for Sensor {
         CameraWire::gather(schemas);
     }
 
-    fn parameters(_: &'static str, _: &str, _: bool) -> Vec<Parameter> {
+    fn parameters(_: &'static str, _: &str, _: bool) -> Vec<wire::Parameter> {
         let mut parameters = PatchWire::query_parameters(false);
         parameters.extend(CameraWire::query_parameters(false));
         parameters
     }
 }
 
-/// Whether the fields describe a camera rather than a patch.
-fn is_camera(fields: &Fields) -> bool {
-    fields.has_any(&CameraWire::names()) && !fields.has_any(&PatchWire::names())
+/// Whether the fields of an object describe a patch and nothing of a camera.
+pub(super) fn describes_patch(object: &Object) -> bool {
+    let has = |names: &[&str]| object.fields.iter().any(|(name, _)| names.contains(&name.as_str()));
+    has(&PatchWire::names()) && !has(&CameraWire::names())
 }
 
-fn take_sensor(camera: bool, fields: &mut Fields, reader: &mut Reader) -> Option<Sensor> {
-    if camera {
-        let camera = CameraWire::take(fields, reader)?;
-        Some(Sensor::Camera(CameraSensor {
-            pixel_area: camera.pixel_area_um2,
-            distance: camera.distance_um,
-            focal_length: camera.focal_length_um,
-            aperture: camera.aperture_um,
-            off_axis: camera.off_axis_deg.or_else(|| OffAxis::new(0.0).ok())?,
-        }))
-    } else {
-        let patch = PatchWire::take(fields, reader)?;
-        Some(Sensor::Patch {
-            footprint: patch.footprint_um2,
-            half_x: patch.patch_half_x_um,
-            half_y: patch.patch_half_y_um,
-        })
+/// What a sensor needs, for messages.
+pub(super) fn sensor_needs() -> String {
+    let camera = CameraWire::names();
+    // The last field of a camera, γ, may be left out.
+    let camera = camera[..camera.len() - 1].join(", ");
+    format!("{} of a patch, or {camera} of a camera", PatchWire::names().join(", "))
+}
+
+fn take_sensor(fields: &mut Fields, reader: &mut Reader) -> Option<Sensor> {
+    let patch = fields.given(&PatchWire::names());
+    match (patch.first(), fields.has_any(&CameraWire::names())) {
+        (None, false) => reader.fail(Code::Required, format!("required: {}", sensor_needs())),
+        (None, true) => take_camera(fields, reader),
+        (Some(_), false) => {
+            let patch = PatchWire::take(fields, reader)?;
+            Some(Sensor::Patch {
+                footprint: patch.footprint_um2,
+                half_x: patch.patch_half_x_um,
+                half_y: patch.patch_half_y_um,
+            })
+        }
+        (Some(first), true) => {
+            // Neither a patch nor a camera: what is missing of either cannot be said.
+            fields.exclude(reader, &CameraWire::names(), &format!("{first}, a field of a patch"));
+            fields.take_named::<Option<Area>>(reader, "footprint_um2");
+            fields.take_named::<Option<Area>>(reader, "pixel_area_um2");
+            for name in
+                ["patch_half_x_um", "patch_half_y_um", "distance_um", "focal_length_um", "aperture_um"]
+            {
+                fields.take_named::<Option<Length>>(reader, name);
+            }
+            fields.take_named::<Option<OffAxis>>(reader, "off_axis_deg");
+            None
+        }
     }
 }
 
+fn take_camera(fields: &mut Fields, reader: &mut Reader) -> Option<Sensor> {
+    let camera = CameraWire::take(fields, reader)?;
+    Some(Sensor::Camera(CameraSensor {
+        pixel_area: camera.pixel_area_um2,
+        distance: camera.distance_um,
+        focal_length: camera.focal_length_um,
+        aperture: camera.aperture_um,
+        off_axis: camera.off_axis_deg.or_else(|| OffAxis::new(0.0).ok())?,
+    }))
+}
+
 object! {
+    partial
     /// How exactly, and by which method.
     AccuracyWire as "Accuracy" {
         /// Of the total, per direction; 1e-9 when absent or null.
@@ -161,6 +199,7 @@ object! {
 }
 
 object! {
+    partial
     /// All about a scene but its directions.
     SceneWire as "Scene" {
         /// Which model: `beckmann_spizzichino` (47), `torrance_sparrow` (72), `lambertian` (57), or `unified`
@@ -173,36 +212,67 @@ object! {
         /// The sensor; only the specular spike needs it.
         sensor: Option<Sensor>,
         /// Which components: `auto` (when absent or null) or a list of names.
-        components: Option<Components>,
+        components: Option<Listed>,
         /// Tolerance and method.
         accuracy: Option<AccuracyWire>,
     }
 }
 
 impl SceneWire {
+    /// What is known, for the checks of the parts against each other.
+    fn outline(&self) -> Outline {
+        let surface = self.surface.as_ref();
+        let light = self.illumination.as_ref();
+        let absences = [
+            (surface.is_some_and(|s| !is_given(&s.rms_height_um)), Parameter::RmsHeight),
+            (surface.is_some_and(|s| !is_given(&s.correlation_length_um)), Parameter::CorrelationLength),
+            (surface.is_some_and(|s| !is_given(&s.facet_slope_deg)), Parameter::FacetSlope),
+            (surface.is_some_and(|s| !is_given(&s.specular_scale)), Parameter::SpecularScale),
+            (
+                light.is_some_and(|l| l.as_ref().is_none_or(|l| !is_given(&l.wavelength_um))),
+                Parameter::Wavelength,
+            ),
+            (!is_given(&self.sensor), Parameter::Sensor),
+        ];
+        Outline {
+            model: self.model,
+            components: self.components.as_ref().map(|listed| listed.clone().unwrap_or(Listed::Auto)),
+            absent: absences.into_iter().filter_map(|(absent, which)| absent.then_some(which)).collect(),
+        }
+    }
+
+    /// The parameters, if all could be read.
     fn into_parameters(self) -> Option<SceneParameters> {
-        let Self { model, surface, illumination, sensor, components, accuracy } = self;
-        let (wavelength, irradiance, polarization) = illumination
-            .map_or((None, None, None), |light| (light.wavelength_um, light.irradiance, light.polarization));
-        let (tolerance, method) = accuracy.map_or((None, None), |a| (a.relative_tolerance, a.method));
+        let (surface, accuracy) = (self.surface?, self.accuracy?);
+        let (wavelength, irradiance, polarization) = match self.illumination? {
+            Some(light) => (light.wavelength_um?, light.irradiance?, light.polarization?),
+            None => (None, None, None),
+        };
+        let (tolerance, method) = match accuracy {
+            Some(accuracy) => (accuracy.relative_tolerance?, accuracy.method?),
+            None => (None, None),
+        };
         Some(SceneParameters {
-            model,
+            model: self.model?,
             surface: scene::Surface {
-                rms_height: surface.rms_height_um,
-                correlation_length: surface.correlation_length_um,
-                facet_slope: surface.facet_slope_deg,
-                medium: surface.medium.unwrap_or(Medium::PerfectConductor),
-                diffuse_albedo: surface.diffuse_albedo.unwrap_or(Fraction::ZERO),
-                specular_scale: surface.specular_scale,
-                shadowing: surface.shadowing,
+                rms_height: surface.rms_height_um?,
+                correlation_length: surface.correlation_length_um?,
+                facet_slope: surface.facet_slope_deg?,
+                medium: surface.medium?.unwrap_or(Medium::PerfectConductor),
+                diffuse_albedo: surface.diffuse_albedo?.unwrap_or(Fraction::ZERO),
+                specular_scale: surface.specular_scale?,
+                shadowing: surface.shadowing?,
             },
             illumination: scene::Illumination {
                 wavelength,
                 irradiance: irradiance.or_else(|| Irradiance::new(1.0).ok())?,
                 polarization: polarization.unwrap_or_else(Polarization::unpolarized),
             },
-            sensor,
-            components: components.unwrap_or(Components::Auto),
+            sensor: self.sensor?,
+            components: match self.components? {
+                None | Some(Listed::Auto) => Components::Auto,
+                Some(Listed::Named(named)) => Components::Named(named.into_iter().collect::<Option<_>>()?),
+            },
             accuracy: Accuracy {
                 relative_tolerance: tolerance.or_else(|| Tolerance::new(DEFAULT_TOLERANCE).ok())?,
                 method: method.unwrap_or(Method::Auto),
@@ -211,7 +281,7 @@ impl SceneWire {
     }
 }
 
-/// A scene whose parameters fit together, read in one go with the checks of [`Scene::new`].
+/// A scene whose parameters fit together, read in one go with the checks of [`Outline::errors`].
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedScene(pub(crate) Scene);
 
@@ -220,16 +290,12 @@ impl WireObject for CheckedScene {
     const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
 
     fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let parameters = SceneWire::take(fields, reader)?.into_parameters()?;
-        match Scene::new(parameters) {
-            Ok(scene) => Some(Self(scene)),
-            Err(errors) => {
-                for error in &errors {
-                    note(error, reader);
-                }
-                None
-            }
+        let wire = SceneWire::take(fields, reader)?;
+        for error in wire.outline().errors() {
+            note(&error, reader);
         }
+        // What is wrong with the whole was just noted.
+        Scene::new(wire.into_parameters()?).ok().map(Self)
     }
 
     fn names() -> Vec<&'static str> {
@@ -244,7 +310,7 @@ impl WireObject for CheckedScene {
         SceneWire::inner(schemas);
     }
 
-    fn query_parameters(required: bool) -> Vec<Parameter> {
+    fn query_parameters(required: bool) -> Vec<wire::Parameter> {
         SceneWire::query_parameters(required)
     }
 }
@@ -252,12 +318,21 @@ impl WireObject for CheckedScene {
 /// Notes what the core found at the field that a client knows.
 fn note(error: &SceneError, reader: &mut Reader) {
     match error {
-        SceneError::Missing { parameter, needed_by } => {
-            let (object, field) = place(*parameter);
-            let detail = format!("required: {needed_by} needs it");
-            reader.within(object, |reader| match field {
-                Some(field) => reader.within(field, |reader| reader.error(Code::Required, detail)),
-                None => reader.error(Code::Required, detail),
+        SceneError::Missing { parameter, needed_by, unless } => {
+            let unless = unless.map(|other| format!(", unless {} is given", place(other).1));
+            let mut detail = format!("required: {needed_by} needs it{}", unless.unwrap_or_default());
+            let (object, mut field) = place(*parameter);
+            if *parameter == Parameter::Sensor {
+                detail = format!("required: {needed_by} needs a sensor with {}", sensor_needs());
+                // A query has no parameter for the sensor as a whole.
+                field = if reader.is_flat() { "footprint_um2" } else { "" };
+            }
+            reader.within(object, |reader| {
+                if field.is_empty() {
+                    reader.error(Code::Required, detail);
+                } else {
+                    reader.within(field, |reader| reader.error(Code::Required, detail));
+                }
             });
         }
         SceneError::NotInModel { position, component, model } => {
@@ -278,15 +353,14 @@ fn at_component(position: usize, code: Code, detail: String, reader: &mut Reader
     reader.within("components", |reader| reader.at(position, |reader| reader.error(code, detail)));
 }
 
-/// Where a parameter of the core stands in a request.
-const fn place(parameter: scene::Parameter) -> (&'static str, Option<&'static str>) {
-    use scene::Parameter as P;
+/// Where a parameter of the core stands in a request: an object, and a field in it or nothing.
+const fn place(parameter: Parameter) -> (&'static str, &'static str) {
     match parameter {
-        P::RmsHeight => ("surface", Some("rms_height_um")),
-        P::CorrelationLength => ("surface", Some("correlation_length_um")),
-        P::FacetSlope => ("surface", Some("facet_slope_deg")),
-        P::Wavelength => ("illumination", Some("wavelength_um")),
-        P::Sensor => ("sensor", None),
-        P::Components => ("components", None),
+        Parameter::RmsHeight => ("surface", "rms_height_um"),
+        Parameter::CorrelationLength => ("surface", "correlation_length_um"),
+        Parameter::FacetSlope => ("surface", "facet_slope_deg"),
+        Parameter::SpecularScale => ("surface", "specular_scale"),
+        Parameter::Wavelength => ("illumination", "wavelength_um"),
+        Parameter::Sensor => ("sensor", ""),
     }
 }

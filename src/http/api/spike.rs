@@ -3,7 +3,7 @@
 use crate::http::input::node::Node;
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::Reader;
-use crate::http::input::wire::{Schemas, Wire, mismatch, named};
+use crate::http::input::wire::{Schemas, Wire, is_given, mismatch, named};
 use crate::http::problem::Code;
 use crate::reflectance::linear_image::{Match, SpikeShape};
 use crate::reflectance::quantity::{Length, SpikeWidth, Wavelength};
@@ -36,6 +36,7 @@ named! {
 }
 
 object! {
+    partial
     /// The spike's shape with what it needs.
     SpikeWire as "SpikeShape" {
         /// `delta`; `sinc2` with `patch_half_x_um`, `patch_half_y_um` and `wavelength_um`; or `gaussian` with
@@ -69,37 +70,40 @@ impl SpikeWire {
                 reader.within(name, |reader| reader.error(Code::Inconsistent, NOT_TAKEN));
             }
         };
-        let (width, x, y) = (self.width_deg, self.patch_half_x_um, self.patch_half_y_um);
-        let by_patch = matches!(self.shape, ShapeName::Gaussian) && width.is_none();
-        let needs_patch = by_patch || matches!(self.shape, ShapeName::Sinc2);
-        let check = if needs_patch { need } else { |_: bool, _: &'static str, _: &mut Reader| () };
-        check(x.is_some(), "patch_half_x_um", reader);
-        check(self.wavelength_um.is_some(), "wavelength_um", reader);
-        if !needs_patch {
-            refuse(x.is_some(), "patch_half_x_um", reader);
-            refuse(self.wavelength_um.is_some(), "wavelength_um", reader);
+        let shape = self.shape?;
+        let (x, y) = (is_given(&self.patch_half_x_um), is_given(&self.patch_half_y_um));
+        let (width, wavelength) = (is_given(&self.width_deg), is_given(&self.wavelength_um));
+        let by_patch = matches!(shape, ShapeName::Gaussian) && !width;
+        if by_patch || matches!(shape, ShapeName::Sinc2) {
+            need(x, "patch_half_x_um", reader);
+            need(wavelength, "wavelength_um", reader);
+        } else {
+            refuse(x, "patch_half_x_um", reader);
+            refuse(wavelength, "wavelength_um", reader);
         }
-        match self.shape {
-            ShapeName::Sinc2 => need(y.is_some(), "patch_half_y_um", reader),
-            ShapeName::Delta | ShapeName::Gaussian => refuse(y.is_some(), "patch_half_y_um", reader),
+        match shape {
+            ShapeName::Sinc2 => need(y, "patch_half_y_um", reader),
+            ShapeName::Delta | ShapeName::Gaussian => refuse(y, "patch_half_y_um", reader),
         }
-        if !matches!(self.shape, ShapeName::Gaussian) {
-            refuse(width.is_some(), "width_deg", reader);
+        if !matches!(shape, ShapeName::Gaussian) {
+            refuse(width, "width_deg", reader);
         }
         if !by_patch {
-            refuse(self.matching.is_some(), "matching", reader);
+            refuse(is_given(&self.matching), "matching", reader);
         }
-        match self.shape {
+        let (half_x, half_y) = (self.patch_half_x_um?, self.patch_half_y_um?);
+        let (width, wavelength, matching) = (self.width_deg?, self.wavelength_um?, self.matching?);
+        match shape {
             ShapeName::Delta => Some(SpikeShape::Delta),
             ShapeName::Sinc2 => {
-                Some(SpikeShape::Sinc2 { half_x: x?, half_y: y?, wavelength: self.wavelength_um? })
+                Some(SpikeShape::Sinc2 { half_x: half_x?, half_y: half_y?, wavelength: wavelength? })
             }
             ShapeName::Gaussian => match width {
                 Some(width) => Some(SpikeShape::Gaussian(width)),
                 None => Some(SpikeShape::GaussianOfPatch {
-                    half_x: x?,
-                    wavelength: self.wavelength_um?,
-                    matching: self.matching.unwrap_or(Match::Curvature),
+                    half_x: half_x?,
+                    wavelength: wavelength?,
+                    matching: matching.unwrap_or(Match::Curvature),
                 }),
             },
         }

@@ -3,11 +3,11 @@
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::List;
-use crate::http::input::wire::{Count, Parameter, Schemas, named};
+use crate::http::input::wire::{Count, Parameter, Schemas, is_given, named};
 use crate::http::problem::Code;
-use crate::reflectance::bounds::{self, Bounds, MAX_CURVES, MAX_DIRECTIONS, MAX_SWEEP_POINTS};
-use crate::reflectance::diagram::{DiagramError, Division, Sweep, SweepAxis};
-use crate::reflectance::quantity::{Azimuth, OutOfBounds, Quantity, ViewerZenith};
+use crate::reflectance::bounds::{MAX_CURVES, MAX_DIRECTIONS, MAX_SWEEP_POINTS};
+use crate::reflectance::diagram::{DiagramError, Division, Sweep, SweepAxis, SweepParts};
+use crate::reflectance::quantity::{Azimuth, Quantity as _, SweepAngle, SweepStep, ViewerZenith};
 use utoipa::openapi::schema::ObjectBuilder;
 
 named! {
@@ -17,43 +17,8 @@ named! {
 /// The step, in degrees, where neither it nor the number of points is given.
 const DEFAULT_STEP: f64 = 1.0;
 
-/// An end of a sweep, degrees.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SweepAngle(f64);
-
-/// The step of a sweep, degrees.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SweepStep(f64);
-
-impl Quantity for SweepAngle {
-    const BOUNDS: &'static Bounds = &bounds::SWEEP_ANGLE;
-
-    fn new(value: f64) -> Result<Self, OutOfBounds> {
-        within(value, Self::BOUNDS).map(Self)
-    }
-
-    fn get(self) -> f64 {
-        self.0
-    }
-}
-
-impl Quantity for SweepStep {
-    const BOUNDS: &'static Bounds = &bounds::SWEEP_STEP;
-
-    fn new(value: f64) -> Result<Self, OutOfBounds> {
-        within(value, Self::BOUNDS).map(Self)
-    }
-
-    fn get(self) -> f64 {
-        self.0
-    }
-}
-
-fn within(value: f64, bounds: &'static Bounds) -> Result<f64, OutOfBounds> {
-    if bounds.contains(value) { Ok(value) } else { Err(OutOfBounds { value, bounds }) }
-}
-
 object! {
+    partial
     /// One zenith angle swept, the other fixed.
     SweepWire as "Sweep" {
         /// Which angle runs: `theta_r_deg` for a fixed source, `theta_i_deg` for a fixed view.
@@ -73,7 +38,7 @@ object! {
     }
 }
 
-/// A sweep that [`Sweep::new`] accepted.
+/// A sweep whose parts fit together.
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedSweep(pub(crate) Sweep);
 
@@ -83,29 +48,30 @@ impl WireObject for CheckedSweep {
 
     fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
         let wire = SweepWire::take(fields, reader)?;
-        let division = match (wire.step_deg, wire.points) {
-            (Some(_), Some(_)) => {
-                return reader.within("points", |reader| {
-                    reader.fail(Code::Inconsistent, "give step_deg or points, not both")
-                });
-            }
-            (None, Some(Count(points))) => Division::Points(points),
-            (step, None) => Division::Step(step.map_or(DEFAULT_STEP, Quantity::get)),
+        let by_points = is_given(&wire.points);
+        let division = if by_points && is_given(&wire.step_deg) {
+            let detail = "give step_deg or points, not both";
+            reader.within("points", |reader| reader.fail(Code::Inconsistent, detail))
+        } else if by_points {
+            wire.points.flatten().map(|Count(points)| Division::Points(points))
+        } else {
+            let step = wire.step_deg.map(|step| step.or_else(|| SweepStep::new(DEFAULT_STEP).ok()));
+            step.flatten().map(Division::Step)
         };
-        let phi_r = wire.phi_r_deg.or_else(|| Azimuth::new(0.0).ok())?;
-        let at = wire.at_deg.0.into_iter().map(Quantity::get).collect();
-        let ends = (wire.from_deg.get(), wire.to_deg.get());
-        match Sweep::new(wire.sweep, ends, division, at, phi_r) {
-            Ok(sweep) => Some(Self(sweep)),
-            Err(errors) => {
-                // What the number of points follows from.
-                let points = if wire.points.is_some() { "points" } else { "step_deg" };
-                for error in &errors {
-                    note(error, points, reader);
-                }
-                None
-            }
+        let parts = SweepParts {
+            axis: wire.sweep,
+            from: wire.from_deg,
+            to: wire.to_deg,
+            division,
+            at: wire.at_deg.map(|List(at)| at),
+            phi_r: wire.phi_r_deg.and_then(|phi_r| phi_r.or_else(|| Azimuth::new(0.0).ok())),
+        };
+        // What the number of points follows from.
+        let points = if by_points { "points" } else { "step_deg" };
+        for error in parts.errors() {
+            note(&error, points, reader);
         }
+        parts.complete().map(Self)
     }
 
     fn names() -> Vec<&'static str> {
@@ -128,9 +94,6 @@ impl WireObject for CheckedSweep {
 /// Notes what the core found at the field that a client knows.
 fn note(error: &DiagramError, points_field: &'static str, reader: &mut Reader) {
     let (field, code, detail) = match error {
-        DiagramError::From(error) => ("from_deg", Code::OutOfRange, error.to_string()),
-        DiagramError::To(error) => ("to_deg", Code::OutOfRange, error.to_string()),
-        DiagramError::Step(error) => ("step_deg", Code::OutOfRange, error.to_string()),
         DiagramError::EndsBeforeStart => {
             ("to_deg", Code::Inconsistent, "the sweep ends before it starts".into())
         }

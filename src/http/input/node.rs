@@ -78,7 +78,18 @@ const MOST_NODES: usize = 4096;
 pub(crate) fn parse(text: &[u8]) -> Result<Node, Malformed> {
     match parse_strictly(text) {
         Err(error) if error.is_syntax() && error.to_string().starts_with("number out of range") => {
-            let quoted = quote_unrepresentable(text);
+            // First with numbers of the same length in their places: whatever else is wrong with the text has
+            // to be told with its place in the text as sent.
+            let same_length = replace_unrepresentable(text, |literal, out| {
+                out.extend_from_slice(b"0.");
+                out.resize(out.len() + literal.len() - 2, b'0');
+            });
+            parse_strictly(&same_length).map_err(|error| malformed(&same_length, &error))?;
+            let quoted = replace_unrepresentable(text, |literal, out| {
+                out.push(b'"');
+                out.extend_from_slice(literal);
+                out.push(b'"');
+            });
             parse_strictly(&quoted).map_err(|error| malformed(&quoted, &error))
         }
         other => other.map_err(|error| malformed(text, &error)),
@@ -122,9 +133,10 @@ fn spells_non_number(text: &[u8], line: usize, column: usize) -> bool {
     matches!(word.trim_start_matches(['-', '+']), "nan" | "inf" | "infinity")
 }
 
-/// Puts quotes around each number literal that f64 cannot hold. Only called for such texts.
-fn quote_unrepresentable(text: &[u8]) -> Vec<u8> {
-    let mut quoted = Vec::with_capacity(text.len() + 64);
+/// Puts something else in the place of each number literal that f64 cannot hold, which has at least the
+/// five characters of `1e309`. Only called for such texts.
+fn replace_unrepresentable(text: &[u8], replace: impl Fn(&[u8], &mut Vec<u8>)) -> Vec<u8> {
+    let mut replaced = Vec::with_capacity(text.len() + 64);
     let mut at = 0;
     while at < text.len() {
         let start = at;
@@ -135,7 +147,7 @@ fn quote_unrepresentable(text: &[u8]) -> Vec<u8> {
                     at += if text[at] == b'\\' { 2 } else { 1 };
                 }
                 at = (at + 1).min(text.len());
-                quoted.extend_from_slice(&text[start..at]);
+                replaced.extend_from_slice(&text[start..at]);
             }
             b'-' | b'0'..=b'9' => {
                 while at < text.len() && matches!(text[at], b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9') {
@@ -147,20 +159,18 @@ fn quote_unrepresentable(text: &[u8]) -> Vec<u8> {
                     .and_then(|s| s.parse::<f64>().ok())
                     .is_some_and(f64::is_infinite);
                 if infinite {
-                    quoted.push(b'"');
-                }
-                quoted.extend_from_slice(literal);
-                if infinite {
-                    quoted.push(b'"');
+                    replace(literal, &mut replaced);
+                } else {
+                    replaced.extend_from_slice(literal);
                 }
             }
             other => {
-                quoted.push(other);
+                replaced.push(other);
                 at += 1;
             }
         }
     }
-    quoted
+    replaced
 }
 
 /// Reads one value, and pays for it.
@@ -292,6 +302,10 @@ mod tests {
         assert_eq!(array.others, [(1, Node::Text("-1e999".to_owned()))]);
         assert_eq!(object.fields[2].1, Node::Text("1e400 \" 2e500".to_owned()));
         assert!(refused("{\"a\": 1e400, ").contains("EOF"));
+        let place = "expected value at line 1 column 19";
+        assert!(refused(r#"{"a": 1e400, "b": }"#).contains(place), "{}", refused(r#"{"a": 1e400, "b": }"#));
+        assert_eq!(refused(r#"{"a": 1e400, "b": }"#), refused(r#"{"a": 1e200, "b": }"#));
+        assert!(refused(r#"{"a": -1e400, 1e400: 2}"#).contains("key must be a string"));
     }
 
     #[test]

@@ -111,7 +111,10 @@ pub(crate) fn documented_parameters<T: WireObject>() -> Vec<path::Parameter> {
     T::query_parameters(true)
         .into_iter()
         .map(|parameter| {
-            let list = matches!(parameter.schema, RefOr::T(Schema::Array(_)));
+            let list = match &parameter.schema {
+                RefOr::T(Schema::OneOf(one_of)) => one_of.items.iter().any(is_array),
+                schema => is_array(schema),
+            };
             let mut documented = path::ParameterBuilder::new()
                 .name(parameter.name)
                 .parameter_in(path::ParameterIn::Query)
@@ -126,9 +129,34 @@ pub(crate) fn documented_parameters<T: WireObject>() -> Vec<path::Parameter> {
         .collect()
 }
 
-/// Declares an object. `..field: Type` at the end takes in the fields of another.
+fn is_array(schema: &RefOr<Schema>) -> bool {
+    matches!(schema, RefOr::T(Schema::Array(_)))
+}
+
+/// What an object holds of a field: the value, or for a partial object None where it could not be read.
+macro_rules! held {
+    (whole $type:ty) => { $type };
+    (partial $type:ty) => { Option<$type> };
+}
+pub(crate) use held;
+
+/// What becomes of a reading: a whole object needs each of its fields.
+macro_rules! hold {
+    (whole $value:ident) => {
+        $value?
+    };
+    (partial $value:ident) => {
+        $value
+    };
+}
+pub(crate) use hold;
+
+/// Declares an object. `..field: Type` at the end takes in the fields of another. A `partial` object is read
+/// also where some of its fields cannot be, so that the others can still be checked against each other.
 macro_rules! object {
+    (partial $($object:tt)*) => { $crate::http::input::object::object!(@ partial $($object)*); };
     (
+        @ $kind:ident
         $(#[doc = $doc:literal])*
         $name:ident as $wire_name:literal {
             $( $(#[doc = $field_doc:literal])* $field:ident: $type:ty, )*
@@ -139,8 +167,8 @@ macro_rules! object {
         #[derive(Clone, Debug)]
         #[allow(clippy::struct_field_names, reason = "the names on the wire end in their units")]
         pub(crate) struct $name {
-            $( $(#[doc = $field_doc])* pub(crate) $field: $type, )*
-            $( pub(crate) $base: $base_type, )*
+            $( $(#[doc = $field_doc])* pub(crate) $field: $crate::http::input::object::held!($kind $type), )*
+            $( pub(crate) $base: $crate::http::input::object::held!($kind $base_type), )*
         }
 
         impl $crate::http::input::object::WireObject for $name {
@@ -153,7 +181,10 @@ macro_rules! object {
             ) -> Option<Self> {
                 $( let $field = fields.take::<$type>(reader, stringify!($field)); )*
                 $( let $base = <$base_type as $crate::http::input::object::WireObject>::take(fields, reader); )*
-                Some(Self { $( $field: $field?, )* $( $base: $base?, )* })
+                Some(Self {
+                    $( $field: $crate::http::input::object::hold!($kind $field), )*
+                    $( $base: $crate::http::input::object::hold!($kind $base), )*
+                })
             }
 
             fn names() -> Vec<&'static str> {
@@ -249,5 +280,6 @@ macro_rules! object {
             }
         }
     };
+    ($($object:tt)*) => { $crate::http::input::object::object!(@ whole $($object)*); };
 }
 pub(crate) use object;

@@ -1,6 +1,6 @@
 //! Collects what is wrong with a request while it is being read.
 
-use super::node::{Node, Object, excerpt};
+use super::node::{Node, Object};
 use super::wire::Wire;
 use crate::http::problem::{Code, FieldError};
 use std::borrow::Cow;
@@ -76,6 +76,11 @@ impl Reader {
     pub(crate) fn fail<T>(&mut self, code: Code, detail: impl Into<String>) -> Option<T> {
         self.error(code, detail);
         None
+    }
+
+    /// Whether something was noted at this very pointer.
+    pub(crate) fn has_noted(&self, pointer: &str) -> bool {
+        self.errors.iter().any(|error| error.pointer == pointer)
     }
 
     /// JSON Pointer of the present place.
@@ -156,6 +161,24 @@ impl Fields {
         self.object.fields.iter().any(|(name, _)| names.contains(&name.as_str()))
     }
 
+    /// Those of these names that are given.
+    pub(crate) fn given(&self, names: &[&'static str]) -> Vec<&'static str> {
+        names.iter().copied().filter(|name| self.has_any(&[name])).collect()
+    }
+
+    /// Notes that fields are given beside one that leaves no place for them.
+    pub(crate) fn exclude(&self, reader: &mut Reader, names: &[&'static str], by: &str) {
+        for name in self.given(names) {
+            let detail = format!("excluded by {by}: give one or the other");
+            reader.within(name, |reader| reader.error(Code::Inconsistent, detail));
+        }
+    }
+
+    /// Drops fields that nothing can be said of.
+    pub(crate) fn forget(&mut self, names: &[&str]) {
+        self.object.fields.retain(|(name, _)| !names.contains(&name.as_str()));
+    }
+
     /// Takes a field out and reads it.
     pub(crate) fn take<T: Wire>(&mut self, reader: &mut Reader, name: &'static str) -> Option<T> {
         if reader.is_flat() {
@@ -180,12 +203,12 @@ impl Fields {
     /// Refuses what is left, and what was given twice.
     pub(crate) fn finish(self, reader: &mut Reader, accepted: &[&str]) {
         for name in self.object.duplicates {
-            reader.within(excerpt(&name), |reader| reader.error(Code::Duplicate, "given more than once"));
+            reader.within(name, |reader| reader.error(Code::Duplicate, "given more than once"));
         }
         for (name, _) in self.object.fields {
             let accepted = if accepted.is_empty() { "none".to_owned() } else { accepted.join(", ") };
             let detail = format!("unknown; accepted here: {accepted}");
-            reader.within(excerpt(&name), |reader| reader.error(Code::UnknownField, detail));
+            reader.within(name, |reader| reader.error(Code::UnknownField, detail));
         }
     }
 }

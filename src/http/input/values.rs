@@ -4,15 +4,16 @@ use super::node::Node;
 use super::object::{WireObject, object};
 use super::reader::{ElementErrors, Fields, Reader};
 use super::wire::{
-    Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, stand_in, text_number,
+    Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, text_number,
 };
 use crate::http::problem::Code;
 use crate::reflectance::bounds::MAX_DIRECTIONS;
 use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::numeric::lobe_series::Method;
+use crate::reflectance::outline::Listed;
 use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
-use crate::reflectance::scene::{Component, Components, Model};
+use crate::reflectance::scene::{Component, Model};
 use crate::reflectance::shadowing::Shadowing;
 use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Schema, Type};
 use utoipa::openapi::{OneOfBuilder, RefOr};
@@ -23,11 +24,27 @@ named! {
     Method, "a method", Method::ALL;
 }
 
-impl<Q: Quantity> Wire for Angles<Q> {
+/// One angle for all directions or one for each, as far as it could be read.
+#[derive(Clone, Debug)]
+pub(crate) struct AnglesWire<Q> {
+    /// How many there are, where it is an array of an accepted length.
+    pub(crate) length: Option<usize>,
+    /// The angles, if all were accepted.
+    pub(crate) angles: Option<Angles<Q>>,
+}
+
+impl<Q: Quantity> Wire for AnglesWire<Q> {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
-            Node::Array(_) => many(node, MAX_DIRECTIONS, reader).map(Self::Each),
-            Node::Number(_) | Node::Text(_) => Q::read(node, reader).map(Self::One),
+            Node::Array(_) => {
+                let numbers = many::<Q>(node, MAX_DIRECTIONS, reader)?;
+                let length = Some(numbers.len());
+                let each: Option<Vec<Q>> = numbers.into_iter().map(|number| Q::new(number).ok()).collect();
+                Some(Self { length, angles: each.map(Angles::Each) })
+            }
+            Node::Number(_) | Node::Text(_) => {
+                Some(Self { length: None, angles: Some(Angles::One(Q::read(node, reader)?)) })
+            }
             other => {
                 reader.fail(Code::WrongType, mismatch(&other, &format!("{}, or an array of such", Q::BOUNDS)))
             }
@@ -44,16 +61,18 @@ fn list_schema(items: RefOr<Schema>, most: usize) -> Array {
     ArrayBuilder::new().items(items).min_items(Some(1)).max_items(Some(most)).build()
 }
 
-/// A list of numbers; in a query, separated by commas or given one by one.
+/// A list of numbers, None for those that were not accepted; in a query, separated by commas or given one by
+/// one.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Q>);
+pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Option<Q>>);
 
 impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
     const REPEATABLE: bool = true;
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let node = if reader.is_flat() { split(node) } else { node };
-        many(node, MOST, reader).map(Self)
+        let numbers = many::<Q>(node, MOST, reader)?;
+        Some(Self(numbers.into_iter().map(|number| Q::new(number).ok()).collect()))
     }
 
     fn schema() -> RefOr<Schema> {
@@ -80,9 +99,8 @@ fn split(node: Node) -> Node {
     })
 }
 
-/// An array of numbers. Elements that are not accepted are noted and replaced, so that its length can be
-/// compared with that of others.
-fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec<Q>> {
+/// An array of numbers, NaN where an element was not accepted.
+fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec<f64>> {
     let Node::Array(array) = node else {
         return reader
             .fail(Code::WrongType, mismatch(&node, &format!("an array, each element {}", Q::BOUNDS)));
@@ -96,6 +114,8 @@ fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec
     }
     let mut numbers = array.numbers;
     let mut errors = ElementErrors::default();
+    // The elements that were noted already.
+    let mut others = Vec::new();
     for (index, other) in array.others {
         if let (true, Node::Text(text)) = (reader.is_flat(), &other) {
             numbers[index] = text_number(text).unwrap_or(f64::NAN);
@@ -103,18 +123,22 @@ fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec
                 continue;
             }
         }
-        numbers[index] = stand_in(Q::BOUNDS);
         let (code, detail) = not_a_number(&other, Q::BOUNDS);
         errors.note(reader, index, code, || detail);
+        others.push(index);
     }
+    let mut others = others.into_iter().peekable();
     for (index, value) in numbers.iter_mut().enumerate() {
+        if others.next_if_eq(&index).is_some() {
+            continue;
+        }
         if let Err(error) = Q::new(*value) {
             errors.note(reader, index, Code::OutOfRange, || error.to_string());
-            *value = stand_in(Q::BOUNDS);
+            *value = f64::NAN;
         }
     }
     errors.finish(reader);
-    numbers.into_iter().map(|value| Q::new(value).ok()).collect()
+    Some(numbers)
 }
 
 impl Wire for String {
@@ -131,6 +155,7 @@ impl Wire for String {
 }
 
 object! {
+    partial
     /// A complex index of refraction n − ik.
     IndexWire as "RefractiveIndex" {
         /// n.
@@ -145,7 +170,11 @@ const MEDIA: [&str; 1] = ["perfect_conductor"];
 
 impl Wire for Medium {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let expected = "\"perfect_conductor\" or an object with n and k";
+        let expected = if reader.is_flat() {
+            "\"perfect_conductor\", or n and k in its place"
+        } else {
+            "\"perfect_conductor\" or an object with n and k"
+        };
         match node {
             Node::Text(text) if MEDIA.contains(&text.as_str()) => Some(Self::PerfectConductor),
             Node::Text(text) => {
@@ -153,11 +182,17 @@ impl Wire for Medium {
                     format!("\"{}\" is not a medium: expected {expected}", super::node::excerpt(&text));
                 reader.fail(Code::UnknownValue, detail)
             }
-            Node::Object(object) if object.fields.iter().any(|(name, _)| name == "material") => reader
-                .within("material", |reader| {
-                    reader
-                        .fail(Code::NotOffered, format!("no materials are offered yet: expected {expected}"))
-                }),
+            Node::Object(object) if object.fields.iter().any(|(name, _)| name == "material") => {
+                let mut fields = Fields::new(object);
+                fields.exclude(reader, &["n", "k"], "material");
+                ignore_index(&mut fields, reader);
+                if fields.take_named::<String>(reader, "material").is_some() {
+                    let detail = format!("no materials are offered yet: expected {expected}");
+                    reader.within("material", |reader| reader.error(Code::NotOffered, detail));
+                }
+                fields.finish(reader, &IndexWire::names());
+                None
+            }
             Node::Object(_) => IndexWire::read_object(node, reader).and_then(|wire| index(&wire)),
             other => reader.fail(Code::WrongType, mismatch(&other, &expected)),
         }
@@ -165,6 +200,8 @@ impl Wire for Medium {
 
     fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
         if fields.has_any(&[name]) {
+            fields.exclude(reader, &["n", "k"], name);
+            ignore_index(fields, reader);
             fields.take_named(reader, name)
         } else {
             IndexWire::take(fields, reader).and_then(|wire| index(&wire))
@@ -194,11 +231,18 @@ impl Wire for Medium {
 }
 
 fn index(wire: &IndexWire) -> Option<Medium> {
-    let k = wire.k.or_else(|| IndexK::new(0.0).ok())?;
-    Some(Medium::Index(RefractiveIndex { n: wire.n, k }))
+    let k = wire.k?.or_else(|| IndexK::new(0.0).ok())?;
+    Some(Medium::Index(RefractiveIndex { n: wire.n?, k }))
+}
+
+/// Reads n and k for their own errors only.
+fn ignore_index(fields: &mut Fields, reader: &mut Reader) {
+    fields.take_named::<Option<IndexN>>(reader, "n");
+    fields.take_named::<Option<IndexK>>(reader, "k");
 }
 
 object! {
+    partial
     /// Shares of the incident energy polarized parallel and perpendicular to the facet's plane of incidence,
     /// which add up to 1.
     MixWire as "PolarizationMix" {
@@ -211,7 +255,7 @@ object! {
 
 impl MixWire {
     fn check(&self, reader: &mut Reader) -> Option<Polarization> {
-        Polarization::mix(self.parallel, self.perpendicular)
+        Polarization::mix(self.parallel?, self.perpendicular?)
             .map_err(|error| reader.error(Code::Inconsistent, error.to_string()))
             .ok()
     }
@@ -259,6 +303,11 @@ impl Wire for Polarization {
 
     fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
         if fields.has_any(&[name]) {
+            let shares = ["parallel", "perpendicular"];
+            fields.exclude(reader, &shares, name);
+            for share in shares {
+                fields.take_named::<Option<Fraction>>(reader, share);
+            }
             fields.take_named(reader, name)
         } else {
             let mix = MixWire::take(fields, reader)?;
@@ -313,7 +362,7 @@ impl Wire for Shadowing {
     }
 }
 
-impl Wire for Components {
+impl Wire for Listed {
     const REPEATABLE: bool = true;
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
@@ -328,17 +377,13 @@ impl Wire for Components {
         };
         if array.others.len() < array.length {
             let expected = "an array of diffuse_lobe, specular_lobe, specular_spike";
-            return reader.fail(Code::WrongType, format!("found an array with numbers: expected {expected}"));
+            reader.error(Code::WrongType, format!("found an array with numbers: expected {expected}"));
         }
-        let mut errors = 0;
-        let mut named = Vec::new();
+        let mut named = vec![None; array.numbers.len()];
         for (position, node) in array.others {
-            match reader.at(position, |reader| read_named::<Component>(&node, reader)) {
-                Some(component) => named.push(component),
-                None => errors += 1,
-            }
+            named[position] = reader.at(position, |reader| read_named::<Component>(&node, reader));
         }
-        (errors == 0).then_some(Self::Named(named))
+        Some(Self::Named(named))
     }
 
     fn schema() -> RefOr<Schema> {
@@ -349,13 +394,5 @@ impl Wire for Components {
             .max_items(Some(Component::ALL.len()))
             .unique_items(true);
         OneOfBuilder::new().item(auto).item(list).into()
-    }
-
-    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
-        // A query has no oneOf of a word and a list: one list of words says the same.
-        let words = std::iter::once("auto").chain(Component::ALL.iter().map(|component| component.name()));
-        let word = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(words)).into();
-        let schema = list_schema(word, Component::ALL.len()).into();
-        vec![Parameter { name, description: description.to_owned(), required, schema }]
     }
 }

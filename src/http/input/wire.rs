@@ -3,7 +3,6 @@
 use super::node::Node;
 use super::reader::{Fields, Reader};
 use crate::http::problem::Code;
-use crate::reflectance::bounds::Bounds;
 use crate::reflectance::quantity::Quantity;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, SchemaType, Type};
 use utoipa::openapi::{OneOfBuilder, RefOr};
@@ -13,8 +12,8 @@ pub(crate) type Schemas = Vec<(String, RefOr<Schema>)>;
 
 /// A value that a request can carry.
 pub(crate) trait Wire: Sized {
-    /// Reads it, noting what is wrong. Some value may come back beside an error, so that what depends on it
-    /// can be checked too: [`Reader::finish`] lets none of them pass.
+    /// Reads it, noting what is wrong. Some value may come back beside an error, with what could be read, so that
+    /// what does not depend on the error can be checked too: [`Reader::finish`] lets none of them pass.
     fn read(node: Node, reader: &mut Reader) -> Option<Self>;
 
     /// What stands for it where it is not given.
@@ -113,6 +112,16 @@ fn null() -> RefOr<Schema> {
     ObjectBuilder::new().schema_type(Type::Null).into()
 }
 
+/// Whether a field that may be left out is given, readable or not.
+#[expect(
+    clippy::option_option,
+    clippy::ref_option,
+    reason = "what a partial object holds of an optional field"
+)]
+pub(crate) const fn is_given<T>(field: &Option<Option<T>>) -> bool {
+    !matches!(field, Some(None))
+}
+
 /// The number of a JSON number, or of a query's text.
 pub(crate) fn number(node: &Node, reader: &mut Reader, expected: &dyn std::fmt::Display) -> Option<f64> {
     let number = match node {
@@ -147,23 +156,10 @@ pub(crate) fn mismatch(found: &Node, expected: &dyn std::fmt::Display) -> String
     format!("found {}: expected {expected}", found.describe())
 }
 
-/// An accepted number for the place of one that was not, so that what depends on it can be checked too: the
-/// one nearest 0, which every narrower range that an angle may have to keep holds as well.
-pub(crate) fn stand_in(bounds: &Bounds) -> f64 {
-    0f64.clamp(bounds.min, bounds.max)
-}
-
 impl<Q: Quantity> Wire for Q {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let stand_in = Q::new(stand_in(Q::BOUNDS)).ok();
-        let Some(number) = number(&node, reader, Q::BOUNDS) else { return stand_in };
-        match Q::new(number) {
-            Ok(value) => Some(value),
-            Err(error) => {
-                reader.error(Code::OutOfRange, error.to_string());
-                stand_in
-            }
-        }
+        let number = number(&node, reader, Q::BOUNDS)?;
+        Q::new(number).map_err(|error| reader.error(Code::OutOfRange, error.to_string())).ok()
     }
 
     fn schema() -> RefOr<Schema> {
