@@ -58,7 +58,8 @@ pub struct Config {
         value_parser = seconds
     )]
     pub request_timeout_seconds: Duration,
-    /// Seconds that requests in flight are given to finish after SIGTERM or Ctrl-C
+    /// Seconds that requests in flight are given to finish after SIGTERM or Ctrl-C; the exit code is 1 if they did
+    /// not
     #[arg(
         long,
         env = "REFLECTANCE_SHUTDOWN_TIMEOUT_SECONDS",

@@ -2,6 +2,8 @@
 
 use crate::http::problem::{Document, Kind, PROBLEM_JSON};
 use std::collections::BTreeMap;
+use utoipa::openapi::header::HeaderBuilder;
+use utoipa::openapi::schema::{ObjectBuilder, Type};
 use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
 use utoipa::{IntoResponses, ToSchema};
 
@@ -45,7 +47,15 @@ pub(crate) fn list(problems: &[(Kind, &str)]) -> BTreeMap<String, RefOr<Response
         .map(|&(kind, description)| {
             let schema = Ref::from_schema_name(Document::name());
             let content = ContentBuilder::new().schema(Some(schema)).build();
-            let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content);
+            let mut response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content);
+            if kind == Kind::TooSlow {
+                let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0));
+                let header = HeaderBuilder::new()
+                    .schema(Some(seconds))
+                    .description(Some("Seconds after which to ask again."))
+                    .build();
+                response = response.header("Retry-After", header);
+            }
             (kind.status().as_u16().to_string(), response.build().into())
         })
         .collect()
