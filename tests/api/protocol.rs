@@ -181,16 +181,9 @@ fn bytes_that_are_not_http_do_no_harm() {
 #[test]
 fn a_request_in_flight_is_finished_after_sigterm() {
     let mut server = Server::start();
-    let mut stream = TcpStream::connect(server.address()).unwrap();
-    let head = format!(
-        "POST /v1/radiance HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: {}\r\n\r\n",
-        BODY.len()
-    );
     let (first, second) = BODY.split_at(20);
-    stream.write_all(head.as_bytes()).unwrap();
+    let mut stream = begin(&server, "/v1/radiance", BODY.len());
     stream.write_all(first.as_bytes()).unwrap();
-    // Answered, so the request above was read before the signal: the same loop accepts both.
-    assert_eq!(server.get("/livez").status(), 200);
     let stopped = Command::new("kill").args(["-TERM", &server.process.id().to_string()]).status().unwrap();
     assert!(stopped.success());
     // New connections are refused once the listening socket is closed.
@@ -205,21 +198,29 @@ fn a_request_in_flight_is_finished_after_sigterm() {
     assert_eq!(server.process.wait().unwrap().code(), Some(0));
 }
 
-/// Sends a request whose work takes far longer than any test waits, and sees that it has arrived.
-fn begin_long_work(server: &Server) -> TcpStream {
+/// Begins a POST request and returns once the service reads it: it says so where a client asks for it.
+fn begin(server: &Server, path: &str, length: usize) -> TcpStream {
     let mut stream = TcpStream::connect(server.address()).unwrap();
-    let link = "/v1/diagrams?model=beckmann_spizzichino&rms_height_um=1&correlation_length_um=4&wavelength_um=0.5\
-        &method=series&sweep=theta_r_deg&from_deg=-90&to_deg=90&points=1000000&at_deg=10";
-    write!(stream, "GET {link} HTTP/1.1\r\nhost: x\r\n\r\n").unwrap();
-    // Answered by the same loop, after it accepted the request above.
-    assert_eq!(server.get("/livez").status(), 200);
+    let head = format!(
+        "POST {path} HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: {length}\r\n\
+         expect: 100-continue\r\n\r\n"
+    );
+    stream.write_all(head.as_bytes()).unwrap();
+    let mut answer = [0; 25];
+    stream.read_exact(&mut answer).unwrap();
+    assert_eq!(&answer, b"HTTP/1.1 100 Continue\r\n\r\n");
     stream
 }
 
 #[test]
 fn the_end_does_not_wait_for_work_longer_than_it_was_told() {
     let mut server = Server::with(&["--shutdown-timeout-seconds", "0.01"]);
-    let _stream = begin_long_work(&server);
+    // Far longer than any test waits.
+    let body = r#"{"model": "beckmann_spizzichino", "surface": {"rms_height_um": 1, "correlation_length_um": 4},
+        "illumination": {"wavelength_um": 0.5}, "accuracy": {"method": "series"}, "sweep": "theta_r_deg",
+        "from_deg": -90, "to_deg": 90, "points": 1000000, "at_deg": [10]}"#;
+    let mut stream = begin(&server, "/v1/diagrams", body.len());
+    stream.write_all(body.as_bytes()).unwrap();
     let stopped = Command::new("kill").args(["-TERM", &server.process.id().to_string()]).status().unwrap();
     assert!(stopped.success());
     assert_eq!(server.process.wait().unwrap().code(), Some(1), "a request was cut");
