@@ -8,6 +8,7 @@ use reflectance::reflectance::lambertian;
 use reflectance::reflectance::numeric::EPSILON;
 use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::numeric::quadrature::{Integral, integrate_to};
+use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::quantity::{Fraction, Irradiance, Quantity};
 use reflectance::reflectance::shadowing::Shadowing;
 use reflectance::reflectance::torrance_sparrow::{FacetLobe, normalized_scale};
@@ -108,7 +109,7 @@ fn the_spike_holds_e_to_the_minus_g() {
                     integrate_to(1e-6, f64::from(i) / (2.0 * half), f64::from(i + 1) / (2.0 * half), |b| {
                         let geometry = viewer(a, b);
                         let patch = Patch {
-                            footprint: 4.0 * half * half * geometry.cos_r,
+                            footprint: Scaled::new(4.0 * half * half * geometry.cos_r),
                             half_x: half,
                             half_y: half,
                         };

@@ -64,7 +64,7 @@ impl RefractiveIndex {
         let SinCos { sin: s, cos: c } = incidence;
         let (n, k) = (self.n.get(), self.k.get());
         if self.is_no_surface() {
-            return Energies { parallel: Energy::ZERO, perpendicular: Energy::ZERO };
+            return Energies::NONE;
         }
         if k == 0.0 && n < s * (1.0 - 2.0 * ANGLE_ERROR) {
             return Energies { parallel: Energy::ONE, perpendicular: Energy::ONE };
