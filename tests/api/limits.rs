@@ -119,3 +119,14 @@ fn a_roughness_that_the_scene_does_not_have_is_null_with_a_reason() {
     assert_eq!(answer["roughness_g"], json!([null, null]));
     assert_eq!(codes(&answer, 1), ["no_roughness"]);
 }
+
+#[test]
+fn the_geometrical_model_wants_heights_above_the_wavelength() {
+    let server = Server::start();
+    for (height, holds) in [(0.2, false), (0.82, false), (0.83, true), (5.0, true)] {
+        let path =
+            format!("/v1/roughness?rms_height_um={height}&correlation_length_um=40&wavelength_um=0.55");
+        let answer: Value = server.get(&path).json().unwrap();
+        assert_eq!(answer["validity"]["geometrical_optics"]["holds"], holds, "{height}: {answer}");
+    }
+}
