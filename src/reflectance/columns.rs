@@ -62,12 +62,12 @@ impl Columns {
             total = total.plus(estimate);
             column.values.push(finite(estimate.value, index, first_diagnostic, diagnostics));
             if let Some(log10) = &mut column.log10 {
-                log10.push(logarithm(estimate.value, index, first_diagnostic, diagnostics));
+                log10.push(logarithm(estimate, index, first_diagnostic, diagnostics));
             }
         }
         let value = finite(total.value, index, first_diagnostic, diagnostics);
         if let Some(log10) = &mut self.log10_total {
-            log10.push(logarithm(total.value, index, first_diagnostic, diagnostics));
+            log10.push(logarithm(total, index, first_diagnostic, diagnostics));
         }
         let bound = if value == 0.0 {
             // All is lost, or there is nothing: no other error of a 0 is possible.
@@ -110,11 +110,16 @@ fn finite(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagn
 }
 
 /// The logarithm of a value, with a diagnostic where it has none.
-fn logarithm(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
-    if value.is_zero() {
-        note(index, DiagnosticCode::LogarithmOfZero, first, diagnostics);
+fn logarithm(estimate: Estimate, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
+    if estimate.value.is_zero() {
+        let code = if estimate.error.is_zero() {
+            DiagnosticCode::LogarithmOfZero
+        } else {
+            DiagnosticCode::LostToRounding
+        };
+        note(index, code, first, diagnostics);
     }
-    value.log10()
+    estimate.value.log10()
 }
 
 /// Adds a diagnostic of this direction unless it is there already.

@@ -111,6 +111,8 @@ pub enum DiagnosticCode {
     NoErrorBound,
     /// The logarithm of an exact zero.
     LogarithmOfZero,
+    /// The logarithm of a value of which rounding left nothing.
+    LostToRounding,
     /// g of a scene without heights or wavelength.
     NoRoughness,
 }
@@ -124,6 +126,7 @@ impl DiagnosticCode {
             Self::Overflow => "overflow",
             Self::NoErrorBound => "no_error_bound",
             Self::LogarithmOfZero => "logarithm_of_zero",
+            Self::LostToRounding => "lost_to_rounding",
             Self::NoRoughness => "no_roughness",
         }
     }
@@ -136,6 +139,9 @@ impl DiagnosticCode {
             Self::Overflow => "above the largest f64; output.log10 gives the true size",
             Self::NoErrorBound => "the relative error has no finite bound",
             Self::LogarithmOfZero => "the value is exactly 0 and has no logarithm",
+            Self::LostToRounding => {
+                "rounding left nothing of a value that is close to 0; it has no logarithm"
+            }
             Self::NoRoughness => "roughness_g needs rms_height_um and wavelength_um",
         }
     }

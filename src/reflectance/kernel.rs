@@ -188,15 +188,15 @@ impl<'a> Kernel<'a> {
 
     /// (57): radiance κ_diff · irradiance · cos θ_i, BRDF κ_diff.
     fn diffuse_lobe(&self, geometry: &Geometry) -> Estimate {
-        let surface = &self.scene.parameters().surface;
+        let p = self.scene.parameters();
+        let (albedo, irradiance) = (p.surface.diffuse_albedo, p.illumination.irradiance);
         let value = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
-                let irradiance = self.scene.parameters().illumination.irradiance;
-                lambertian::radiance(surface.diffuse_albedo, irradiance, geometry.cos_i)
+                lambertian::radiance(albedo, irradiance, geometry.cos_i)
             }
-            Quantity::Brdf => lambertian::kappa_diff(surface.diffuse_albedo),
+            Quantity::Brdf => lambertian::kappa_diff(albedo),
         };
-        Estimate::within(Scaled::new(value), 8.0 * EPSILON)
+        Estimate::within(value, 8.0 * EPSILON)
     }
 
     /// (70), times 1 − e^{-g} where it shares the energy with a spike.

@@ -130,3 +130,63 @@ fn the_geometrical_model_wants_heights_above_the_wavelength() {
         assert_eq!(answer["validity"]["geometrical_optics"]["holds"], holds, "{height}: {answer}");
     }
 }
+
+#[test]
+fn factors_below_the_smallest_float_do_not_lose_the_product() {
+    let server = Server::start();
+    let log10 = |surface: Value, irradiance: f64| {
+        let model = if surface.get("diffuse_albedo").is_some() { "lambertian" } else { "torrance_sparrow" };
+        let component = if model == "lambertian" { "diffuse_lobe" } else { "specular_lobe" };
+        let body = json!({
+            "model": model, "surface": surface, "illumination": {"irradiance": irradiance},
+            "components": [component], "geometry": {"theta_i_deg": 60, "theta_r_deg": 60},
+            "output": {"log10": true}
+        });
+        server.answer("/v1/radiance", &body)["log10_total"][0].as_f64().unwrap()
+    };
+    // ρ/π · E · cos 60°, and c·a_f/4 · E/cos 60° at the mirror direction.
+    let half_over_pi = (0.5 / std::f64::consts::PI).log10();
+    for (got, expected) in [
+        (log10(json!({"diffuse_albedo": 1e-250}), 1e-100), -350.0 + half_over_pi),
+        (log10(json!({"diffuse_albedo": 5e-324}), 1e100), 5e-324f64.log10() + 100.0 + half_over_pi),
+        (
+            log10(json!({"facet_slope_deg": 10, "specular_scale": 5e-324}), 1e100),
+            5e-324f64.log10() + 100.0 - 2f64.log10(),
+        ),
+    ] {
+        assert!((got - expected).abs() <= 64.0 * f64::EPSILON * (expected.abs() + 325.0), "{got} {expected}");
+    }
+}
+
+#[test]
+fn the_bound_holds_where_roundings_align_at_the_critical_angle() {
+    let server = Server::start();
+    let body = json!({
+        "model": "torrance_sparrow",
+        "surface": {"facet_slope_deg": 20, "specular_scale": 1, "medium": {"n": 0.12519920731668474, "k": 0}},
+        "illumination": {"polarization": "perpendicular"}, "components": ["specular_lobe"],
+        "geometry": {"theta_i_deg": 14.479520280109837, "theta_r_deg": 14.479520663921148,
+                     "phi_r_deg": 119.90353532667406}
+    });
+    let answer = server.answer("/v1/radiance", &body);
+    // By 80-digit arithmetic.
+    let error = (answer["total"][0].as_f64().unwrap() / 0.211723773015146 - 1.0).abs();
+    assert!(error <= answer["relative_error_bound"][0].as_f64().unwrap(), "{error} {answer}");
+}
+
+#[test]
+fn a_right_azimuth_keeps_the_phase_of_the_spike_exactly_zero() {
+    let server = Server::start();
+    let spike = |half: f64| {
+        let body = json!({
+            "model": "beckmann_spizzichino", "surface": {"rms_height_um": 0.001},
+            "illumination": {"wavelength_um": 1},
+            "sensor": {"footprint_um2": 1, "patch_half_x_um": half, "patch_half_y_um": 1e-6},
+            "geometry": {"theta_i_deg": 0, "theta_r_deg": 1e-4, "phi_r_deg": [90, 270, -90]},
+            "components": ["specular_spike"]
+        });
+        server.answer("/v1/radiance", &body)["total"].clone()
+    };
+    // v_x = −sin θ_r cos 90° = 0: the patch may be as long as it likes.
+    assert_eq!(spike(1e15), spike(1e-6));
+}

@@ -173,7 +173,7 @@ fn a_white_diffuser_sends_everything_back() {
     let (white, beam) = (Fraction::new(1.0).unwrap(), Irradiance::new(1.0).unwrap());
     for theta_i in [0.0, 1.0] {
         let share = over_hemisphere(theta_i, 0.3, 1e-14, |geometry| {
-            lambertian::radiance(white, beam, geometry.cos_i) * geometry.cos_r / geometry.cos_i
+            lambertian::radiance(white, beam, geometry.cos_i).to_f64() * geometry.cos_r / geometry.cos_i
         });
         assert!((share.value - 1.0).abs() < share.error + 16.0 * EPSILON, "{share:?}");
     }
