@@ -8,7 +8,8 @@ VERSION=4.32.0
 SECONDS_AT_MOST=${1:-150}
 venv=target/schemathesis
 if [ ! -x "$venv/bin/schemathesis" ]; then
-    python3 -m venv "$venv"
+    # Debian keeps venv in a package of its own.
+    python3 -m venv "$venv" || { apt-get update && apt-get install -y python3-venv && python3 -m venv "$venv"; }
     "$venv/bin/pip" install --quiet "schemathesis==$VERSION"
 fi
 

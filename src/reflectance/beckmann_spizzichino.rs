@@ -49,6 +49,9 @@ impl RelativeRoughness {
     pub fn lobe(&self, geometry: &Geometry, over_cosines: f64, method: Method) -> (Estimate, Method) {
         let (g, x) = (self.g(geometry), self.x(geometry));
         let series = lobe_series::evaluate(method, g, x);
+        if geometry.cos_sum == 0.0 && method != Method::Rough {
+            return (self.grazing_lobe(geometry, over_cosines, x), series.method);
+        }
         (self.lobe_of(geometry, over_cosines, &series), series.method)
     }
 
@@ -60,20 +63,26 @@ impl RelativeRoughness {
         let patch = Scaled::new(self.correlation_length) * facet_factor;
         let factor = patch.squared() * (0.25 * PI) * over_cosines;
         let value = factor * series.estimate.value;
-        if value.is_nan() {
-            return Estimate::UNDEFINED;
-        }
         if !value.is_finite() {
-            return Estimate::INFINITE;
+            return finite_or_limit(value, 0.0);
         }
         let rounding = PREFACTOR_UNITS + G_UNITS * series.condition_g + X_UNITS * series.condition_x;
         series.estimate.scaled_by(factor).widened(EPSILON * rounding)
     }
 
+    /// The limit of the lobe where both directions are grazing: q → 0 and S → g e^{-x}, so that S/q²
+    /// tends to (2π σ_h/λ)² e^{-x} and only `over_cosines` decides.
+    fn grazing_lobe(&self, geometry: &Geometry, over_cosines: f64, x: f64) -> Estimate {
+        let patch = Scaled::new(self.correlation_length) * Scaled::new(geometry.length()).squared();
+        let phase = Scaled::new(2.0 * PI * self.height);
+        let value = (patch * phase).squared() * (0.25 * PI) * Scaled::exp(-x) * over_cosines;
+        finite_or_limit(value, EPSILON * (PREFACTOR_UNITS + X_UNITS * x))
+    }
+
     /// The specular spike of (47) over the irradiance, per steradian; `cosines` is the cos² θ_i of
     /// (47), or cos θ_i for its BRDF.
     pub fn spike(&self, geometry: &Geometry, cosines: f64, patch: &Patch) -> Estimate {
-        if geometry.cos_r == 0.0 || !patch.is_finite() {
+        if geometry.cos_r == 0.0 {
             return if cosines == 0.0 { Estimate::UNDEFINED } else { Estimate::INFINITE };
         }
         let cos_r = Scaled::new(geometry.cos_r);
@@ -89,11 +98,22 @@ impl RelativeRoughness {
     }
 }
 
+/// A value known within a factor e^{±`log_error`}, or why there is none.
+fn finite_or_limit(value: Scaled, log_error: f64) -> Estimate {
+    if value.is_nan() {
+        Estimate::UNDEFINED
+    } else if value.is_finite() {
+        Estimate::within(value, log_error)
+    } else {
+        Estimate::INFINITE
+    }
+}
+
 /// The patch that the sensor sees, its lengths over the wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     /// (z/f)² dA_im cos γ/λ² of (43).
-    pub footprint: f64,
+    pub footprint: Scaled,
     /// X/λ of (35).
     pub half_x: f64,
     /// Y/λ of (35).
@@ -101,10 +121,6 @@ pub struct Patch {
 }
 
 impl Patch {
-    fn is_finite(&self) -> bool {
-        self.footprint.is_finite() && self.half_x.is_finite() && self.half_y.is_finite()
-    }
-
     /// ρ_o of (35), sinc(v_x X) sinc(v_y Y) with sinc a = sin(a)/a (errata E16).
     pub fn rho(&self, geometry: &Geometry) -> f64 {
         sinc(2.0 * PI * self.half_x * geometry.along()) * sinc(2.0 * PI * self.half_y * geometry.across())

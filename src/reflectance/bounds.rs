@@ -91,6 +91,8 @@ pub const FACET_SLOPE_INVERTIBLE: Bounds =
 pub const SWEEP_ANGLE: Bounds = Bounds::new("swept zenith angle", "degrees", -90.0, 90.0);
 /// Step of a sweep.
 pub const SWEEP_STEP: Bounds = Bounds::new("sweep step", "degrees", 1e-6, 180.0);
+/// The relative tolerance of a caller who names none.
+pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// Directions in one request.
 pub const MAX_DIRECTIONS: usize = 1_000_000;
 /// Points along one sweep.

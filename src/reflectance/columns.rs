@@ -62,14 +62,19 @@ impl Columns {
             total = total.plus(estimate);
             column.values.push(finite(estimate.value, index, first_diagnostic, diagnostics));
             if let Some(log10) = &mut column.log10 {
-                log10.push(logarithm(estimate.value, index, first_diagnostic, diagnostics));
+                log10.push(logarithm(estimate, index, first_diagnostic, diagnostics));
             }
         }
         let value = finite(total.value, index, first_diagnostic, diagnostics);
         if let Some(log10) = &mut self.log10_total {
-            log10.push(logarithm(total.value, index, first_diagnostic, diagnostics));
+            log10.push(logarithm(total, index, first_diagnostic, diagnostics));
         }
-        let bound = total.relative_error() + rounding_below_normal(total.value, value);
+        let bound = if value == 0.0 {
+            // All is lost, or there is nothing: no other error of a 0 is possible.
+            if total == Estimate::ZERO { 0.0 } else { 1.0 }
+        } else {
+            total.relative_error() + rounding_below_normal(total.value, value)
+        };
         if !bound.is_finite() && total.value.is_finite() {
             note(index, DiagnosticCode::NoErrorBound, first_diagnostic, diagnostics);
         }
@@ -79,12 +84,10 @@ impl Columns {
     }
 }
 
-/// What rounding to a subnormal or to 0 adds to the relative error; 1 where all is lost.
+/// What rounding to a subnormal adds to the relative error.
 fn rounding_below_normal(exact: Scaled, value: f64) -> f64 {
-    if value.abs() >= f64::MIN_POSITIVE || exact.is_zero() || !exact.is_finite() {
+    if value.abs() >= f64::MIN_POSITIVE || !exact.is_finite() {
         0.0
-    } else if value == 0.0 {
-        1.0
     } else {
         (Scaled::new(2f64.powi(-1074)) * 0.5 / exact).to_f64()
     }
@@ -107,11 +110,16 @@ fn finite(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagn
 }
 
 /// The logarithm of a value, with a diagnostic where it has none.
-fn logarithm(value: Scaled, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
-    if value.is_zero() {
-        note(index, DiagnosticCode::LogarithmOfZero, first, diagnostics);
+fn logarithm(estimate: Estimate, index: usize, first: usize, diagnostics: &mut Vec<Diagnostic>) -> f64 {
+    if estimate.value.is_zero() {
+        let code = if estimate.error.is_zero() {
+            DiagnosticCode::LogarithmOfZero
+        } else {
+            DiagnosticCode::LostToRounding
+        };
+        note(index, code, first, diagnostics);
     }
-    value.log10()
+    estimate.value.log10()
 }
 
 /// Adds a diagnostic of this direction unless it is there already.

@@ -40,8 +40,10 @@ impl Estimate {
     /// `self` times a factor that has an error of its own.
     #[must_use]
     pub fn times(self, factor: Self) -> Self {
-        if self.value.is_zero() && self.error.is_zero() || factor.value.is_zero() && factor.error.is_zero() {
-            return Self::ZERO;
+        let exact_zero = |e: Self| e.value.is_zero() && e.error.is_zero();
+        if exact_zero(self) || exact_zero(factor) {
+            let finite = self.value.is_finite() && factor.value.is_finite();
+            return if finite { Self::ZERO } else { Self::UNDEFINED };
         }
         Self {
             value: self.value * factor.value,

@@ -2,9 +2,9 @@
 
 use super::columns::Columns;
 use super::directions::Directions;
-use super::findings::{Diagnostic, LISTED_INDICES, Omitted, Warning, WarningCode};
+use super::findings::{Diagnostic, DiagnosticCode, LISTED_INDICES, Omitted, Warning, WarningCode};
 use super::kernel::{Kernel, Reflection};
-use super::scene::{Component, Components, Model, Scene};
+use super::scene::{Component, Components, Scene};
 
 pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
@@ -33,7 +33,7 @@ pub struct Evaluation {
     pub methods: Vec<(EvaluatedBy, usize)>,
     /// The method of each direction, if asked for.
     pub method: Option<Vec<EvaluatedBy>>,
-    /// g of (34) for each direction, if asked for and the surface has heights.
+    /// g of (34) for each direction, if asked for; NaN where the scene has no heights or wavelength.
     pub roughness_g: Option<Vec<f64>>,
     /// Components that were not evaluated, and why.
     pub omitted: Vec<Omitted>,
@@ -50,8 +50,8 @@ pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, outp
     for (index, geometry) in directions.geometries().enumerate() {
         let reflection = kernel.reflect(&geometry);
         answer.push(index, &reflection);
-        if output.per_direction || !answer.spike_share_known() {
-            answer.push_g(kernel.g(&geometry));
+        if answer.needs_g() {
+            answer.push_g(index, kernel.g(&geometry));
         }
     }
     answer.finish()
@@ -89,14 +89,19 @@ impl Concern {
     }
 
     fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
-        (self.count > 0).then_some(Warning { code, value, indices: self.indices, count: self.count })
+        (self.count > 0).then_some(Warning {
+            code,
+            value,
+            parameter: None,
+            indices: self.indices,
+            count: self.count,
+        })
     }
 }
 
 impl<'a> Answer<'a> {
     fn new(scene: &'a Scene, count: usize, output: Output) -> Self {
         let p = scene.parameters();
-        let has_heights = p.surface.rms_height.is_some() && p.illumination.wavelength.is_some();
         let lacks_spike = p.components == Components::Auto
             && p.model.components().contains(&Component::SpecularSpike)
             && !scene.evaluated().contains(&Component::SpecularSpike);
@@ -104,7 +109,7 @@ impl<'a> Answer<'a> {
             scene,
             columns: Columns::new(scene.evaluated(), count, output.log10),
             method: output.per_direction.then(|| Vec::with_capacity(count)),
-            roughness_g: (output.per_direction && has_heights).then(|| Vec::with_capacity(count)),
+            roughness_g: output.per_direction.then(|| Vec::with_capacity(count)),
             counts: [0; EvaluatedBy::ALL.len()],
             underflow: Concern::default(),
             tolerance: Concern::default(),
@@ -113,16 +118,20 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Whether g is of no use to the omitted spike.
-    fn spike_share_known(&self) -> bool {
-        !self.lacks_spike
+    /// Whether g is asked for, or tells how much the omitted spike carries.
+    fn needs_g(&self) -> bool {
+        self.roughness_g.is_some() || self.lacks_spike
     }
 
-    fn push_g(&mut self, g: Option<f64>) {
-        let Some(g) = g else { return };
-        self.least_g = Some(self.least_g.map_or(g, |least| least.min(g)));
+    fn push_g(&mut self, index: usize, g: Option<f64>) {
+        if let Some(g) = g {
+            self.least_g = Some(self.least_g.map_or(g, |least| least.min(g)));
+        }
         if let Some(column) = &mut self.roughness_g {
-            column.push(g);
+            column.push(g.unwrap_or(f64::NAN));
+            if g.is_none() {
+                self.columns.diagnostics.push(Diagnostic { index, code: DiagnosticCode::NoRoughness });
+            }
         }
     }
 
@@ -158,24 +167,14 @@ impl<'a> Answer<'a> {
                 bound: None,
                 reason: "the specular spike depends on the sensor's footprint and none was given",
             });
-            let share = libm::exp(-self.least_g.unwrap_or(0.0));
-            if share > p.accuracy.relative_tolerance.get() {
-                warnings.push(Warning {
-                    code: WarningCode::SpikeWithoutSensor,
-                    value: Some(share),
-                    indices: Vec::new(),
-                    count: 0,
-                });
+            let share = self.least_g.map(|g| libm::exp(-g));
+            if share.is_none_or(|share| share > p.accuracy.relative_tolerance.get()) {
+                warnings.push(Warning::of_scene(WarningCode::SpikeWithoutSensor, share, None));
             }
         }
-        if p.model == Model::BeckmannSpizzichino && p.surface.diffuse_albedo.get() > 0.0 {
-            warnings.push(Warning {
-                code: WarningCode::ParameterNotUsed,
-                value: Some(p.surface.diffuse_albedo.get()),
-                indices: Vec::new(),
-                count: 0,
-            });
-        }
+        let unused = self.scene.unused().into_iter();
+        warnings
+            .extend(unused.map(|name| Warning::of_scene(WarningCode::ParameterNotUsed, None, Some(name))));
         let largest = self.tolerance.largest;
         warnings.extend(
             self.tolerance

@@ -1,5 +1,6 @@
 //! The scenes behind the presets of [`super::figures`].
 
+use super::bounds::DEFAULT_TOLERANCE;
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
 use super::quantity::{
@@ -10,9 +11,6 @@ use super::scene::{
     Accuracy, Component, Components, Illumination, Model, Scene, SceneParameters, Sensor, Surface,
 };
 use super::shadowing::Shadowing;
-
-/// The default tolerance of the service.
-const TOLERANCE: f64 = 1e-9;
 
 /// A Beckmann-Spizzichino scene of σ_h, T, λ in µm, with X = Y = 10 and footprint 400.
 pub(super) fn beckmann_spizzichino(
@@ -30,7 +28,7 @@ pub(super) fn beckmann_spizzichino(
         illumination: light(Some(Wavelength::new(lambda)?))?,
         sensor: Some(sensor()?),
         components: Components::Named(components.to_vec()),
-        accuracy: Accuracy { relative_tolerance: Tolerance::new(TOLERANCE)?, method },
+        accuracy: Accuracy { relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?, method },
     }))
 }
 
@@ -47,7 +45,7 @@ pub(super) fn torrance_sparrow(facet_slope: FacetSlope) -> Result<Scene, OutOfBo
         illumination: light(None)?,
         sensor: None,
         components: Components::Named(vec![Component::SpecularLobe]),
-        accuracy: Accuracy { relative_tolerance: Tolerance::new(TOLERANCE)?, method: Method::Auto },
+        accuracy: Accuracy { relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?, method: Method::Auto },
     }))
 }
 
@@ -79,9 +77,9 @@ fn sensor() -> Result<Sensor, OutOfBounds> {
 /// show: e^{-g} is 3 % at 30°, the lobe 9° wide, and half of the light is scattered diffusely.
 pub(super) mod components_of_section_5 {
     use super::{
-        Accuracy, Area, Components, CorrelationLength, Fraction, Length, Method, Model, OutOfBounds,
-        Quantity, RmsHeight, Scene, SceneParameters, Sensor, Surface, TOLERANCE, Tolerance, Wavelength, bare,
-        light,
+        Accuracy, Area, Components, CorrelationLength, DEFAULT_TOLERANCE, Fraction, Length, Method, Model,
+        OutOfBounds, Quantity, RmsHeight, Scene, SceneParameters, Sensor, Surface, Tolerance, Wavelength,
+        bare, light,
     };
 
     /// The parameters in words.
@@ -106,7 +104,10 @@ pub(super) mod components_of_section_5 {
                 half_y: Length::new(2.0)?,
             }),
             components: Components::Auto,
-            accuracy: Accuracy { relative_tolerance: Tolerance::new(TOLERANCE)?, method: Method::Auto },
+            accuracy: Accuracy {
+                relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?,
+                method: Method::Auto,
+            },
         }))
     }
 }

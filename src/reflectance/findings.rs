@@ -21,10 +21,23 @@ pub struct Warning {
     pub code: WarningCode,
     /// The number behind it.
     pub value: Option<f64>,
+    /// The parameter that it is about.
+    pub parameter: Option<&'static str>,
     /// The first directions it concerns, at most [`LISTED_INDICES`].
     pub indices: Vec<usize>,
     /// How many directions it concerns.
     pub count: usize,
+}
+
+impl Warning {
+    /// About the scene rather than some of its directions.
+    pub(super) const fn of_scene(
+        code: WarningCode,
+        value: Option<f64>,
+        parameter: Option<&'static str>,
+    ) -> Self {
+        Self { code, value, parameter, indices: Vec::new(), count: 0 }
+    }
 }
 
 /// Indices listed by one warning.
@@ -70,7 +83,7 @@ impl WarningCode {
                  the largest share e^-g of the reflected energy that the spike carries"
             }
             Self::ParameterNotUsed => {
-                "diffuse_albedo has no effect: the Beckmann-Spizzichino model has no diffuse lobe"
+                "this parameter was given and has no effect on the components evaluated"
             }
         }
     }
@@ -98,6 +111,10 @@ pub enum DiagnosticCode {
     NoErrorBound,
     /// The logarithm of an exact zero.
     LogarithmOfZero,
+    /// The logarithm of a value of which rounding left nothing.
+    LostToRounding,
+    /// g of a scene without heights or wavelength.
+    NoRoughness,
 }
 
 impl DiagnosticCode {
@@ -109,6 +126,8 @@ impl DiagnosticCode {
             Self::Overflow => "overflow",
             Self::NoErrorBound => "no_error_bound",
             Self::LogarithmOfZero => "logarithm_of_zero",
+            Self::LostToRounding => "lost_to_rounding",
+            Self::NoRoughness => "no_roughness",
         }
     }
 
@@ -120,6 +139,10 @@ impl DiagnosticCode {
             Self::Overflow => "above the largest f64; output.log10 gives the true size",
             Self::NoErrorBound => "the relative error has no finite bound",
             Self::LogarithmOfZero => "the value is exactly 0 and has no logarithm",
+            Self::LostToRounding => {
+                "rounding left nothing of a value that is close to 0; it has no logarithm"
+            }
+            Self::NoRoughness => "roughness_g needs rms_height_um and wavelength_um",
         }
     }
 }

@@ -240,7 +240,7 @@ mod tests {
         let got = slope_average(&glass, Polarization::unpolarized(), SinCos { sin, cos }, 0.15).unwrap();
         let energy = got.reflectance;
         assert!((energy.value - exact).abs() <= energy.error, "{energy:?}");
-        assert!(energy.error < 256.0 * EPSILON * exact, "{energy:?}");
+        assert!(energy.error < 400.0 * EPSILON * exact, "{energy:?}");
     }
 
     #[test]

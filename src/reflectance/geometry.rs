@@ -20,6 +20,8 @@ pub struct Geometry {
     half_difference: SinCos,
     /// sin and cos of `φ_r`/2
     half_azimuth: SinCos,
+    /// cos `φ_r`
+    cos_azimuth: f64,
     /// q = cos `θ_i` + cos `θ_r` = |v_z|/k
     pub cos_sum: f64,
     /// sin `θ_i` − sin `θ_r` = q tan((`θ_i` − `θ_r`)/2)
@@ -33,15 +35,18 @@ impl Geometry {
     pub fn new(theta_i: SourceZenith, theta_r: ViewerZenith, phi_r: Azimuth) -> Self {
         let zenith = theta_r.get().abs();
         let mut half_azimuth = SinCos::of_degrees(phi_r.get() / 2.0);
+        let mut cos_azimuth = SinCos::of_degrees(phi_r.get()).cos;
         if theta_r.get() < 0.0 {
             // The same zenith at φ_r + 180°: half of it is φ_r/2 + 90°, exactly.
             half_azimuth = SinCos { sin: half_azimuth.cos, cos: -half_azimuth.sin };
+            cos_azimuth = -cos_azimuth;
         }
         Self::from_parts(
             SinCos::of_degrees(theta_i.get()),
             SinCos::of_degrees(zenith),
             SinCos::of_degrees((theta_i.get() - zenith) / 2.0),
             half_azimuth,
+            cos_azimuth,
         )
     }
 
@@ -52,10 +57,17 @@ impl Geometry {
             SinCos::of_radians(theta_r),
             SinCos::of_radians((theta_i - theta_r) / 2.0),
             SinCos::of_radians(phi_r / 2.0),
+            SinCos::of_radians(phi_r).cos,
         )
     }
 
-    fn from_parts(i: SinCos, r: SinCos, half_difference: SinCos, half_azimuth: SinCos) -> Self {
+    fn from_parts(
+        i: SinCos,
+        r: SinCos,
+        half_difference: SinCos,
+        half_azimuth: SinCos,
+        cos_azimuth: f64,
+    ) -> Self {
         let cos_sum = i.cos + r.cos;
         let sin_difference = cos_sum * (half_difference.sin / half_difference.cos);
         let across = 2.0 * i.sin.sqrt() * r.sin.sqrt() * half_azimuth.sin;
@@ -66,6 +78,7 @@ impl Geometry {
             sin_r: r.sin,
             half_difference,
             half_azimuth,
+            cos_azimuth,
             cos_sum,
             sin_difference,
             horizontal: libm::hypot(sin_difference, across),
@@ -78,9 +91,13 @@ impl Geometry {
         front + back
     }
 
-    /// The two terms of v_x/k that may cancel: sin `θ_i` − sin `θ_r` and 2 sin `θ_r` sin²(`φ_r`/2).
+    /// v_x/k as two terms that may cancel: sin `θ_i` and −sin `θ_r` cos `φ_r`, or sin `θ_i` − sin `θ_r` and
+    /// 2 sin `θ_r` sin²(`φ_r`/2), whichever cancel less.
     pub(super) fn along_parts(&self) -> (f64, f64) {
-        (self.sin_difference, 2.0 * self.sin_r * self.half_azimuth.sin * self.half_azimuth.sin)
+        let apart = (self.sin_i, -self.sin_r * self.cos_azimuth);
+        let close = (self.sin_difference, 2.0 * self.sin_r * self.half_azimuth.sin * self.half_azimuth.sin);
+        let size = |(a, b): (f64, f64)| a.abs() + b.abs();
+        if size(apart) <= size(close) { apart } else { close }
     }
 
     /// v_y/k of (28) with the report's sign (errata E12: only its magnitude matters).

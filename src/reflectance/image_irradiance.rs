@@ -171,6 +171,7 @@ mod tests {
     use super::{LinearModel, Offset, Spike, Strengths};
     use crate::reflectance::beckmann_spizzichino::Patch;
     use crate::reflectance::geometry::Geometry;
+    use crate::reflectance::numeric::scaled::Scaled;
     use crate::reflectance::numeric::{EPSILON, quadrature::integrate};
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
 
@@ -193,7 +194,7 @@ mod tests {
     fn the_mirror_direction_has_all_three() {
         let (geometry, offset) = at(60.0, 60.0, 0.0);
         for spike in [
-            Spike::Sinc2(Patch { footprint: 1.0, half_x: 100.0, half_y: 100.0 }),
+            Spike::Sinc2(Patch { footprint: Scaled::ONE, half_x: 100.0, half_y: 100.0 }),
             Spike::Gaussian { width: 1e-3 },
         ] {
             let source = model(spike).fixed_source(&geometry, offset);

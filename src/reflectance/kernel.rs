@@ -10,6 +10,7 @@ use super::numeric::EPSILON;
 use super::numeric::lobe_series::Method;
 use super::numeric::scaled::Scaled;
 use super::quantity::{SpecularScale, Wavelength};
+use super::radiometry::Camera;
 use super::scene::{Component, Model, Scene, Sensor};
 use super::shadowing::Shadowing;
 use super::torrance_sparrow::{self, FacetLobe};
@@ -104,8 +105,11 @@ pub(super) struct Kernel<'a> {
 #[derive(Clone, Copy)]
 enum View {
     Patch(Patch),
-    /// Footprint/λ²; the patch follows for each θ_r.
-    Camera(f64),
+    /// The patch follows for each θ_r.
+    Camera {
+        optics: Camera,
+        wavelength: f64,
+    },
 }
 
 impl<'a> Kernel<'a> {
@@ -184,15 +188,15 @@ impl<'a> Kernel<'a> {
 
     /// (57): radiance κ_diff · irradiance · cos θ_i, BRDF κ_diff.
     fn diffuse_lobe(&self, geometry: &Geometry) -> Estimate {
-        let surface = &self.scene.parameters().surface;
+        let p = self.scene.parameters();
+        let (albedo, irradiance) = (p.surface.diffuse_albedo, p.illumination.irradiance);
         let value = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
-                let irradiance = self.scene.parameters().illumination.irradiance;
-                lambertian::radiance(surface.diffuse_albedo, irradiance, geometry.cos_i)
+                lambertian::radiance(albedo, irradiance, geometry.cos_i)
             }
-            Quantity::Brdf => lambertian::kappa_diff(surface.diffuse_albedo),
+            Quantity::Brdf => lambertian::kappa_diff(albedo),
         };
-        Estimate::within(Scaled::new(value), 8.0 * EPSILON)
+        Estimate::within(value, 8.0 * EPSILON)
     }
 
     /// (70), times 1 − e^{-g} where it shares the energy with a spike.
@@ -221,7 +225,12 @@ impl<'a> Kernel<'a> {
 
     /// (41) and (71): F′ at the half vector; and the irradiance where a radiance is asked for.
     fn with_reflectance(&self, lobe: Estimate, reflectance: Option<Estimate>) -> Estimate {
-        let reflected = reflectance.map_or(lobe, |reflectance| lobe.times(reflectance));
+        let reflected = match reflectance {
+            None => lobe,
+            // No surface, no reflection: not even at grazing.
+            Some(none) if none == Estimate::ZERO => Estimate::ZERO,
+            Some(share) => lobe.times(share),
+        };
         match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => {
                 reflected.scaled_by(Scaled::new(self.irradiance))
@@ -245,14 +254,11 @@ impl View {
     fn new(sensor: Sensor, wavelength: f64) -> Self {
         match sensor {
             Sensor::Patch { footprint, half_x, half_y } => Self::Patch(Patch {
-                footprint: footprint.get() / wavelength / wavelength,
+                footprint: Scaled::new(footprint.get()) / Scaled::new(wavelength).squared(),
                 half_x: half_x.get() / wavelength,
                 half_y: half_y.get() / wavelength,
             }),
-            Sensor::Camera(camera) => {
-                let camera = camera.optics();
-                Self::Camera((camera.footprint() / Scaled::new(wavelength).squared()).to_f64())
-            }
+            Sensor::Camera(camera) => Self::Camera { optics: camera.optics(), wavelength },
         }
     }
 
@@ -260,8 +266,9 @@ impl View {
     fn patch(self, geometry: &Geometry) -> Patch {
         match self {
             Self::Patch(patch) => patch,
-            Self::Camera(footprint) => {
-                let half = 0.5 * (footprint / geometry.cos_r).sqrt();
+            Self::Camera { optics, wavelength } => {
+                let half = optics.half_side(geometry.cos_r) / wavelength;
+                let footprint = optics.footprint() / Scaled::new(wavelength).squared();
                 Patch { footprint, half_x: half, half_y: half }
             }
         }

@@ -6,6 +6,7 @@ use super::degrees::{self, SinCos};
 use super::directions::Directions;
 use super::findings::Diagnostic;
 use super::image_irradiance::{LinearModel, Offset, Spike, Strengths};
+use super::numeric::scaled::Scaled;
 use super::quantity::{FacetSlope, Length, SourceZenith, SpikeWidth, Strength, ViewerZenith, Wavelength};
 use super::scene::Component;
 
@@ -142,7 +143,7 @@ impl LinearScene {
             SpikeShape::Delta => Spike::Delta,
             SpikeShape::Sinc2 { half_x, half_y, wavelength } => Spike::Sinc2(Patch {
                 // ρ_o does not depend on the footprint.
-                footprint: 1.0,
+                footprint: Scaled::ONE,
                 half_x: half_x.get() / wavelength.get(),
                 half_y: half_y.get() / wavelength.get(),
             }),

@@ -21,6 +21,7 @@ pub mod image_irradiance;
 mod kernel;
 pub mod lambertian;
 pub mod linear_image;
+pub mod model;
 pub mod numeric;
 pub mod outline;
 pub mod quantity;

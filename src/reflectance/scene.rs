@@ -13,83 +13,7 @@ use super::radiometry::Camera;
 use super::roughness;
 use super::shadowing::Shadowing;
 
-/// Which of the report's models.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
-    /// Specular lobe + specular spike, (47).
-    BeckmannSpizzichino,
-    /// Diffuse lobe + facet lobe, (72).
-    TorranceSparrow,
-    /// Diffuse lobe, (57).
-    Lambertian,
-    /// Lambertian diffuse lobe + Torrance-Sparrow specular lobe + Beckmann-Spizzichino spike, section 5.1.
-    Unified,
-}
-
-impl Model {
-    /// Every model.
-    pub const ALL: [Self; 4] =
-        [Self::BeckmannSpizzichino, Self::TorranceSparrow, Self::Lambertian, Self::Unified];
-
-    /// The components the model is made of, in the order in which they are answered.
-    pub const fn components(self) -> &'static [Component] {
-        use Component::{DiffuseLobe, SpecularLobe, SpecularSpike};
-        match self {
-            Self::BeckmannSpizzichino => &[SpecularLobe, SpecularSpike],
-            Self::TorranceSparrow => &[DiffuseLobe, SpecularLobe],
-            Self::Lambertian => &[DiffuseLobe],
-            Self::Unified => &[DiffuseLobe, SpecularLobe, SpecularSpike],
-        }
-    }
-
-    /// The name in requests and answers.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::BeckmannSpizzichino => "beckmann_spizzichino",
-            Self::TorranceSparrow => "torrance_sparrow",
-            Self::Lambertian => "lambertian",
-            Self::Unified => "unified",
-        }
-    }
-}
-
-/// A primary reflection component, section 5.1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Component {
-    /// (57)
-    DiffuseLobe,
-    /// The second term of (47), or (70).
-    SpecularLobe,
-    /// The first term of (47).
-    SpecularSpike,
-}
-
-impl Component {
-    /// Every component.
-    pub const ALL: [Self; 3] = [Self::DiffuseLobe, Self::SpecularLobe, Self::SpecularSpike];
-
-    /// The name in requests and answers.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::DiffuseLobe => "diffuse_lobe",
-            Self::SpecularLobe => "specular_lobe",
-            Self::SpecularSpike => "specular_spike",
-        }
-    }
-
-    /// The name of its decimal logarithm in answers.
-    pub const fn log10_name(self) -> &'static str {
-        match self {
-            Self::DiffuseLobe => "log10_diffuse_lobe",
-            Self::SpecularLobe => "log10_specular_lobe",
-            Self::SpecularSpike => "log10_specular_spike",
-        }
-    }
-
-    pub(super) const fn index(self) -> usize {
-        self as usize
-    }
-}
+pub use super::model::{Component, Model};
 
 /// What the surface is made of and how rough it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -245,6 +169,25 @@ impl Scene {
     /// The components that an evaluation answers, in the model's order.
     pub fn evaluated(&self) -> &[Component] {
         &self.evaluated
+    }
+
+    /// The parameters that were given and that no evaluated component reads, as clients know them.
+    pub(super) fn unused(&self) -> Vec<&'static str> {
+        let p = &self.parameters;
+        let diffuse = self.evaluated.contains(&Component::DiffuseLobe);
+        let lobe = self.evaluated.contains(&Component::SpecularLobe);
+        let height_lobe = lobe && p.model == Model::BeckmannSpizzichino;
+        let facet_lobe = lobe && !height_lobe;
+        [
+            ("surface.diffuse_albedo", p.surface.diffuse_albedo.get() > 0.0 && !diffuse),
+            ("surface.facet_slope_deg", p.surface.facet_slope.is_some() && !facet_lobe),
+            ("surface.specular_scale", p.surface.specular_scale.is_some() && !facet_lobe),
+            ("surface.shadowing", p.surface.shadowing == Some(Shadowing::VGroove) && !lobe),
+            ("accuracy.method", p.accuracy.method != Method::Auto && !height_lobe),
+        ]
+        .into_iter()
+        .filter_map(|(name, unused)| unused.then_some(name))
+        .collect()
     }
 
     /// The shadowing in force: the caller's, or the model's default.

@@ -134,6 +134,15 @@ pub fn curvature_radius_in_wavelengths(rms_height: f64, correlation_length: f64,
     (correlation_length / rms_height) * (correlation_length / wavelength) / 12f64.sqrt()
 }
 
+/// The σ_h/λ from which the report takes the spike for gone and the geometrical model for valid (4.1.5, 4.2.2).
+/// Near grazing the spike lives on (errata, part D).
+pub const GEOMETRICAL_FROM: f64 = 1.5;
+
+/// Whether heights of this σ_h/λ are for geometrical optics.
+pub fn is_geometrical(height_over_wavelength: f64) -> bool {
+    height_over_wavelength >= GEOMETRICAL_FROM
+}
+
 /// Whether the radius of curvature is large enough for Kirchhoff's assumption. Brekhovskikh's condition 4π r cos θ′ ≫ λ, with ten
 /// for "much greater" and normal incidence: from r = 10 λ/4π = 0.8 λ on.
 pub fn is_locally_flat(radius_in_wavelengths: f64) -> bool {

@@ -55,7 +55,7 @@ impl FacetLobe {
         }
         let ratio = geometry.alpha() / self.sigma_alpha;
         let square = ratio * ratio;
-        let value = Scaled::exp(-0.5 * square) * over_cosines * (0.25 * self.specular_scale);
+        let value = Scaled::exp(-0.5 * square) * (0.25 * over_cosines) * self.specular_scale;
         Estimate::within(value, EPSILON * (14.0 * square + 48.0))
     }
 

@@ -87,7 +87,7 @@ fn check(line: &Line<'_>) {
             correlation_length: input("T") / wavelength,
         },
         patch: Patch {
-            footprint: input("footprint") / wavelength / wavelength,
+            footprint: Scaled::new(input("footprint")) / Scaled::new(wavelength).squared(),
             half_x: input("X") / wavelength,
             half_y: input("Y") / wavelength,
         },

@@ -6,6 +6,7 @@ use crate::table::Table;
 use reflectance::reflectance::beckmann_spizzichino::Patch;
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::image_irradiance::{LinearModel, Offset, Spike, Strengths};
+use reflectance::reflectance::numeric::scaled::Scaled;
 use std::sync::LazyLock;
 
 pub(crate) static MEASURED: LazyLock<Measured> =
@@ -28,7 +29,7 @@ fn check(line: &Line<'_>) {
         spike,
     };
     let delta = model(Spike::Delta);
-    let sinc2 = model(Spike::Sinc2(Patch { footprint: 1.0, half_x, half_y }));
+    let sinc2 = model(Spike::Sinc2(Patch { footprint: Scaled::ONE, half_x, half_y }));
     let gauss = model(Spike::Gaussian { width: input("sigma_s") });
 
     let cint = |name| row.cint(name).unwrap_or(0.0);

@@ -8,6 +8,7 @@ use reflectance::reflectance::lambertian;
 use reflectance::reflectance::numeric::EPSILON;
 use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::numeric::quadrature::{Integral, integrate_to};
+use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::quantity::{Fraction, Irradiance, Quantity};
 use reflectance::reflectance::shadowing::Shadowing;
 use reflectance::reflectance::torrance_sparrow::{FacetLobe, normalized_scale};
@@ -108,7 +109,7 @@ fn the_spike_holds_e_to_the_minus_g() {
                     integrate_to(1e-6, f64::from(i) / (2.0 * half), f64::from(i + 1) / (2.0 * half), |b| {
                         let geometry = viewer(a, b);
                         let patch = Patch {
-                            footprint: 4.0 * half * half * geometry.cos_r,
+                            footprint: Scaled::new(4.0 * half * half * geometry.cos_r),
                             half_x: half,
                             half_y: half,
                         };
@@ -172,7 +173,7 @@ fn a_white_diffuser_sends_everything_back() {
     let (white, beam) = (Fraction::new(1.0).unwrap(), Irradiance::new(1.0).unwrap());
     for theta_i in [0.0, 1.0] {
         let share = over_hemisphere(theta_i, 0.3, 1e-14, |geometry| {
-            lambertian::radiance(white, beam, geometry.cos_i) * geometry.cos_r / geometry.cos_i
+            lambertian::radiance(white, beam, geometry.cos_i).to_f64() * geometry.cos_r / geometry.cos_i
         });
         assert!((share.value - 1.0).abs() < share.error + 16.0 * EPSILON, "{share:?}");
     }

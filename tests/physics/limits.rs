@@ -5,6 +5,7 @@ use reflectance::reflectance::beckmann_spizzichino::{Patch, RelativeRoughness};
 use reflectance::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::lobe_series::Method;
+use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::quantity::{
     CorrelationLength, IndexK, IndexN, InvertibleFacetSlope, Quantity, RmsHeight,
 };
@@ -63,7 +64,7 @@ fn the_spike_as_printed_is_not_reciprocal_and_the_square_of_d_would_make_it_so()
     // Errata E15, for a fixed patch seen whole: f(0.5, 0.8)/f(0.8, 0.5) = 1.5866. The footprint of that patch is A cos θ_r.
     let brdf = |i: f64, r: f64| {
         let geometry = Geometry::from_radians(i, r, 0.0);
-        let patch = Patch { footprint: geometry.cos_r, half_x: 0.5, half_y: 0.5 };
+        let patch = Patch { footprint: Scaled::new(geometry.cos_r), half_x: 0.5, half_y: 0.5 };
         let mirror = RelativeRoughness { height: 0.0, correlation_length: 1.0 };
         (mirror.spike(&geometry, geometry.cos_i, &patch).value.to_f64(), geometry.d())
     };

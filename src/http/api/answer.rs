@@ -56,13 +56,14 @@ pub(crate) struct Answer {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     method: Option<Vec<&'static str>>,
-    /// g of (34) in each direction, if `output.per_direction` asks for it; null where the scene has none.
+    /// g of (34) in each direction, if `output.per_direction` asks for it; null, with a diagnostic, where the
+    /// scene has no heights or wavelength.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     roughness_g: Option<Numbers>,
     /// Components that `components: "auto"` left out.
     omitted: Vec<OmittedAnswer>,
-    /// What the scene strains.
+    /// What to know of the answer as a whole.
     warnings: Vec<WarningAnswer>,
     /// Why values are null.
     diagnostics: Vec<DiagnosticAnswer>,
@@ -92,6 +93,10 @@ pub(crate) struct WarningAnswer {
     detail: &'static str,
     /// How much, where it is a number.
     value: Option<f64>,
+    /// The field of the request that it is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false, example = "surface.specular_scale")]
+    parameter: Option<&'static str>,
     /// The directions concerned: 20 at most.
     indices: Vec<usize>,
     /// How many directions are concerned.
@@ -123,6 +128,7 @@ impl From<Warning> for WarningAnswer {
             code: warning.code.name(),
             detail: warning.code.detail(),
             value: warning.value,
+            parameter: warning.parameter,
             indices: warning.indices,
             count: warning.count,
         }

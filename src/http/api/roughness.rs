@@ -13,7 +13,9 @@ use crate::reflectance::quantity::{
     BeckmannAlpha, CorrelationLength, InvertibleFacetSlope, RmsHeight, SourceZenith, Wavelength,
 };
 use crate::reflectance::roughness::Widths;
-use crate::reflectance::surface::{RayleighPair, Regime, curvature_radius_in_wavelengths, is_locally_flat};
+use crate::reflectance::surface::{
+    RayleighPair, Regime, curvature_radius_in_wavelengths, is_geometrical, is_locally_flat,
+};
 use crate::reflectance::unified::{lobe_share, mirror_g, spike_share};
 use axum::response::Response;
 use serde::Serialize;
@@ -166,7 +168,7 @@ pub(crate) struct Roughness {
 pub(crate) struct Validity {
     /// Of Beckmann-Spizzichino, section 4.1.3: the surface is locally flat.
     kirchhoff: Check,
-    /// Of Torrance-Sparrow, section 4.2.3: facets are much larger than the wavelength, σ_h ≫ λ, and there is no spike.
+    /// Of Torrance-Sparrow, sections 4.2.2 and 4.2.3: σ_h is above the wavelength, and there is no spike.
     geometrical_optics: Check,
 }
 
@@ -195,7 +197,7 @@ pub(crate) struct RoughnessDiagnostic {
 }
 
 const KIRCHHOFF: &str = "radius of curvature T²/(2√3 σ_h) over the wavelength; holds from 10/4π on";
-const GEOMETRICAL: &str = "σ_h over the wavelength; holds where the regime is rough at normal incidence";
+const GEOMETRICAL: &str = "σ_h over the wavelength; holds from 1.5 on, where the report finds the spike gone";
 
 /// Every measure of one roughness.
 ///
@@ -258,7 +260,7 @@ fn validity(height: f64, length: f64, wavelength: f64) -> Validity {
         kirchhoff: Check { value: radius, holds: is_locally_flat(radius), criterion: KIRCHHOFF },
         geometrical_optics: Check {
             value: height / wavelength,
-            holds: Regime::of(mirror_g(height, wavelength, 1.0)) == Regime::Rough,
+            holds: is_geometrical(height / wavelength),
             criterion: GEOMETRICAL,
         },
     }

@@ -5,6 +5,7 @@ use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
 use crate::http::problem::Code;
+use crate::reflectance::bounds::DEFAULT_TOLERANCE;
 use crate::reflectance::fresnel::{Medium, Polarization};
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError};
@@ -18,9 +19,6 @@ use crate::reflectance::scene::{
 use crate::reflectance::shadowing::Shadowing;
 use utoipa::openapi::schema::{ObjectBuilder, Schema};
 use utoipa::openapi::{OneOfBuilder, RefOr};
-
-/// Relative tolerance where none is asked for.
-const DEFAULT_TOLERANCE: f64 = 1e-9;
 
 object! {
     partial

@@ -5,9 +5,10 @@ use crate::reflectance::degrees::SinCos;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::quantity::{IndexK, IndexN};
 
-/// Relative error that the sine and the cosine of the angle of incidence are allowed, 8 ε: those of
+/// Relative error that the sine and the cosine of the angle of incidence are allowed, 14 ε: of the sine counting
+/// roundings gives 10 ε and a search for the worst found 8.4 ε; those of
 /// [`crate::reflectance::geometry::Geometry::local_incidence`] stay below it.
-pub const ANGLE_ERROR: f64 = 8.0 * EPSILON;
+pub const ANGLE_ERROR: f64 = 14.0 * EPSILON;
 
 /// n − ik, the index of the lower medium relative to the upper one; k ≥ 0 absorbs. Energies are those of
 /// n + ik as well (errata E5).
@@ -64,7 +65,7 @@ impl RefractiveIndex {
         let SinCos { sin: s, cos: c } = incidence;
         let (n, k) = (self.n.get(), self.k.get());
         if self.is_no_surface() {
-            return Energies { parallel: Energy::ZERO, perpendicular: Energy::ZERO };
+            return Energies::NONE;
         }
         if k == 0.0 && n < s * (1.0 - 2.0 * ANGLE_ERROR) {
             return Energies { parallel: Energy::ONE, perpendicular: Energy::ONE };
@@ -158,7 +159,7 @@ mod tests {
     }
 
     fn close(energy: Energy, exact: f64) -> bool {
-        (energy.value - exact).abs() <= energy.error && energy.error < 100.0 * EPSILON
+        (energy.value - exact).abs() <= energy.error && energy.error < 160.0 * EPSILON
     }
 
     #[test]

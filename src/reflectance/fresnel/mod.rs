@@ -82,8 +82,14 @@ pub struct Energies {
 }
 
 impl Energies {
+    /// Nothing is reflected: there is no surface.
+    pub const NONE: Self = Self { parallel: Energy::ZERO, perpendicular: Energy::ZERO };
+
     /// F′ of (63).
     pub fn mixed(&self, polarization: Polarization) -> Energy {
+        if *self == Self::NONE {
+            return Energy::ZERO;
+        }
         let (h, v) = (polarization.h(), polarization.v());
         let value = h * self.parallel.value + v * self.perpendicular.value;
         // h + v may miss 1 by SUM_SLACK; two products and a sum.

@@ -50,14 +50,24 @@ pub(super) fn serves(saddle: &Saddle) -> bool {
     saddle.mu >= 16.0 && saddle.variance() >= 2.0
 }
 
+/// c₁ … c₄.
+fn coefficients(saddle: &Saddle) -> [f64; 4] {
+    let t = 1.0 / saddle.w;
+    [horner(&C1, t) / 12.0, horner(&C2, t) / 288.0, horner(&C3, t) / 51840.0, horner(&C4, t) / 2488320.0]
+}
+
 /// 1 + c₁/μ + … + c₄/μ⁴.
 fn correction(saddle: &Saddle) -> f64 {
-    let (t, r) = (1.0 / saddle.w, 1.0 / saddle.mu);
-    let c1 = horner(&C1, t) / 12.0;
-    let c2 = horner(&C2, t) / 288.0;
-    let c3 = horner(&C3, t) / 51840.0;
-    let c4 = horner(&C4, t) / 2488320.0;
+    let [c1, c2, c3, c4] = coefficients(saddle);
+    let r = 1.0 / saddle.mu;
     1.0 + r * (c1 + r * (c2 + r * (c3 + r * c4)))
+}
+
+/// The same for any μ.
+fn scaled_correction(saddle: &Saddle) -> Scaled {
+    let r = Scaled::ONE / Scaled::new(saddle.mu);
+    let sum = coefficients(saddle).into_iter().rev().fold(Scaled::ZERO, |sum, c| (sum + Scaled::new(c)) * r);
+    Scaled::ONE + sum
 }
 
 /// S by the expansion to order 4, where it [`serves`].
@@ -69,7 +79,8 @@ pub(super) fn order_four(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
 
 /// What the expansion makes of a point where it does not serve, measured against `s`.
 pub(super) fn beyond(g: f64, x: f64, saddle: &Saddle, s: &LobeSeries) -> LobeSeries {
-    let value = leading_term(g, x, saddle) * correction(saddle);
+    // 1/μ⁴ may leave f64's range.
+    let value = leading_term(g, x, saddle) * scaled_correction(saddle);
     // Far outside, 1 + c₁/μ + … may be negative: the report's quantities are not.
     let value = if value.is_negative() { Scaled::ZERO } else { value };
     let (condition_g, condition_x) = conditions(g, x, saddle);
@@ -96,5 +107,5 @@ fn leading_term(g: f64, x: f64, saddle: &Saddle) -> Scaled {
         let ln_ratio = if u < 600.0 { libm::log(mu / g) } else { libm::log(mu) - libm::log(g) };
         (mu - g) - mu * ln_ratio - x / mu
     };
-    Scaled::exp(psi) * Scaled::new(1.0 / (mu * w.sqrt()))
+    Scaled::exp(psi) / (Scaled::new(mu) * w.sqrt())
 }
