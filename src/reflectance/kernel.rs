@@ -201,16 +201,29 @@ impl<'a> Kernel<'a> {
 
     /// (70), times 1 − e^{-g} where it shares the energy with a spike.
     fn facet_lobe(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
-        let lobe = self.facets?.lobe(geometry, self.shadowing_over_cosines(geometry));
         let surface = &self.scene.parameters().surface;
         let shares = self.scene.parameters().model == Model::Unified && surface.specular_scale.is_none();
         if !shares {
+            let lobe = self.facets?.lobe(geometry, self.shadowing_over_cosines(geometry));
             return Some(self.with_reflectance(lobe, reflectance));
         }
         let g = unified::mirror_g(self.roughness?.height, 1.0, geometry.cos_i);
-        // 1 − e^{-g} has no larger relative error than g, 16 ε, and three roundings.
-        let share = Estimate::within(Scaled::new(unified::lobe_share(g)), 24.0 * EPSILON);
-        Some(self.with_reflectance(lobe.times(share), reflectance))
+        let share = unified::lobe_share(g);
+        let (over_cosines, share) = match (self.quantity, self.shadowing) {
+            // Nothing else makes up for the 1/cos θ_i of a BRDF: 1 − e^{-g} goes with cos² θ_i.
+            (Quantity::Brdf, Shadowing::None) => (
+                self.shadowing.factor_over_cos_r(geometry),
+                if geometry.cos_i == 0.0 {
+                    Scaled::ZERO
+                } else {
+                    Scaled::new(share) / Scaled::new(geometry.cos_i)
+                },
+            ),
+            _ => (self.shadowing_over_cosines(geometry), Scaled::new(share)),
+        };
+        // 1 − e^{-g} has no larger relative error than g, 16 ε, and three roundings; the cosine 4 ε.
+        let lobe = self.facets?.lobe(geometry, over_cosines).times(Estimate::within(share, 28.0 * EPSILON));
+        Some(self.with_reflectance(lobe, reflectance))
     }
 
     /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.

@@ -74,6 +74,27 @@ fn both_directions_grazing_have_a_limit_or_say_that_they_have_none() {
 }
 
 #[test]
+fn a_grazing_source_leaves_the_unified_lobe_nothing() {
+    let server = Server::start();
+    let body = json!({
+        "model": "unified",
+        "surface": {"facet_slope_deg": 5, "rms_height_um": 0.02, "correlation_length_um": 0.4, "shadowing": "none"},
+        "illumination": {"wavelength_um": 0.55},
+        "geometry": {"theta_i_deg": [90, 89.999999, 89.9999], "theta_r_deg": 30}, "components": ["specular_lobe"]
+    });
+    // 1 − e^{-g} goes to 0 as cos² θ_i and the BRDF's 1/cos θ_i takes one of them: what is left goes with cos θ_i.
+    let total: Vec<f64> = server.answer("/v1/brdf", &body)["total"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|value| value.as_f64().unwrap())
+        .collect();
+    assert_eq!(total[0], 0.0);
+    // The exponential changes with the angle by its slope, some 1e-3 over the 1e-4 degrees between them.
+    assert!((total[2] / total[1] / 100.0 - 1.0).abs() < 1e-2, "{total:?}");
+}
+
+#[test]
 fn no_surface_reflects_nothing_even_at_grazing() {
     let server = Server::start();
     let body = json!({
