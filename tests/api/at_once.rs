@@ -1,6 +1,6 @@
 //! What cannot be read hides nothing that is wrong elsewhere, and makes nothing wrong that is right.
 
-use crate::server::{Server, errors, problem};
+use crate::server::{Server, errors, problem, scene};
 use serde_json::{Value, json};
 
 type Expected = Vec<(&'static str, &'static str)>;
@@ -14,15 +14,6 @@ fn check(document: &Value, expected: &Expected, request: &dyn std::fmt::Display)
 fn detail<'a>(document: &'a Value, pointer: &str) -> &'a str {
     let errors = document["errors"].as_array().unwrap();
     errors.iter().find(|error| error["pointer"] == pointer).unwrap()["detail"].as_str().unwrap()
-}
-
-fn scene() -> Value {
-    json!({
-        "model": "beckmann_spizzichino",
-        "surface": {"rms_height_um": 0.2, "correlation_length_um": 4},
-        "illumination": {"wavelength_um": 0.55},
-        "geometry": {"theta_i_deg": 30, "theta_r_deg": [0, 30]}
-    })
 }
 
 fn with(field: &str, value: Value) -> Value {

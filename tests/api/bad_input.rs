@@ -1,17 +1,7 @@
 //! Everything that is wrong with a request, all at once, each with a pointer.
 
-use crate::server::{Server, errors, problem};
+use crate::server::{Server, errors, problem, scene};
 use serde_json::{Value, json};
-
-/// A scene that is right.
-fn scene() -> Value {
-    json!({
-        "model": "beckmann_spizzichino",
-        "surface": {"rms_height_um": 0.2, "correlation_length_um": 4},
-        "illumination": {"wavelength_um": 0.55},
-        "geometry": {"theta_i_deg": 30, "theta_r_deg": [0, 30]}
-    })
-}
 
 /// The scene with changes: each a JSON Pointer's place and a value.
 fn with(changes: &[(&str, Value)]) -> Value {

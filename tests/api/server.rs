@@ -1,7 +1,7 @@
 //! The binary, started on a free port and stopped with the test.
 
 use reqwest::blocking::{Client, RequestBuilder, Response};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
@@ -110,4 +110,14 @@ pub(crate) fn errors(problem: &Value) -> Vec<(String, String)> {
         .collect();
     errors.sort();
     errors
+}
+
+/// A request for radiance that is right.
+pub(crate) fn scene() -> Value {
+    json!({
+        "model": "beckmann_spizzichino",
+        "surface": {"rms_height_um": 0.2, "correlation_length_um": 4},
+        "illumination": {"wavelength_um": 0.55},
+        "geometry": {"theta_i_deg": 30, "theta_r_deg": [0, 30]}
+    })
 }

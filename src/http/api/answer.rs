@@ -1,7 +1,7 @@
 //! What `/v1/radiance` and `/v1/brdf` answer.
 
 use crate::http::encode::numbers::Numbers;
-use crate::reflectance::evaluate::{EvaluatedBy, Evaluation, Quantity};
+use crate::reflectance::evaluate::{ComponentColumn, EvaluatedBy, Evaluation, Quantity};
 use crate::reflectance::findings::{Diagnostic, Omitted, Warning};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -141,13 +141,18 @@ impl From<Diagnostic> for DiagnosticAnswer {
     }
 }
 
+/// Values and logarithms of each component, in the order of `Component::ALL`.
+pub(super) fn by_component(columns: Vec<ComponentColumn>) -> [(Option<Numbers>, Option<Numbers>); 3] {
+    let mut found = [const { (None, None) }; 3];
+    for column in columns {
+        found[column.component as usize] = (Some(Numbers(column.values)), column.log10.map(Numbers));
+    }
+    found
+}
+
 impl Answer {
     pub(crate) fn new(quantity: Quantity, evaluation: Evaluation) -> Self {
-        let mut columns = [const { (None, None) }; 3];
-        for column in evaluation.components {
-            columns[column.component as usize] = (Some(Numbers(column.values)), column.log10.map(Numbers));
-        }
-        let [diffuse, lobe, spike] = columns;
+        let [diffuse, lobe, spike] = by_component(evaluation.components);
         Self {
             quantity: quantity.name(),
             unit: quantity.unit(),

@@ -1,7 +1,7 @@
 //! `POST /v1/image-irradiance`: (51) through a camera, and the linear models (74) and (80).
 #![allow(non_snake_case, reason = "the strengths keep the report's symbols on the wire")]
 
-use super::answer::{Answer, DiagnosticAnswer};
+use super::answer::{Answer, DiagnosticAnswer, by_component};
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
 use super::scene::describes_patch;
@@ -273,20 +273,15 @@ pub(crate) struct LinearAnswer {
 
 impl LinearAnswer {
     fn new(evaluation: LinearEvaluation) -> Self {
-        let mut columns = evaluation.components.into_iter();
-        let mut next = || {
-            columns.next().map_or((Numbers(Vec::new()), None), |column| {
-                (Numbers(column.values), column.log10.map(Numbers))
-            })
-        };
-        let (diffuse, lobe, spike) = (next(), next(), next());
+        // The linear models always have all three.
+        let [diffuse, lobe, spike] = by_component(evaluation.components);
         Self {
             quantity: "image_irradiance",
             unit: "W m^-2",
             total: Numbers(evaluation.total),
-            diffuse_lobe: diffuse.0,
-            specular_lobe: lobe.0,
-            specular_spike: spike.0,
+            diffuse_lobe: diffuse.0.unwrap_or_default(),
+            specular_lobe: lobe.0.unwrap_or_default(),
+            specular_spike: spike.0.unwrap_or_default(),
             log10_total: evaluation.log10_total.map(Numbers),
             log10_diffuse_lobe: diffuse.1,
             log10_specular_lobe: lobe.1,

@@ -7,6 +7,7 @@ use utoipa::openapi::schema::{ArrayBuilder, ObjectBuilder, Schema, SchemaType, T
 use utoipa::{PartialSchema, ToSchema};
 
 /// A column. JSON has no infinities and no NaN: they are written as null.
+#[derive(Default)]
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
 impl Serialize for Numbers {
