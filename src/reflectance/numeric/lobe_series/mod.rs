@@ -9,6 +9,10 @@
 //! the value with an exponent that cannot underflow, an error bound that holds, and what an error of
 //! g or x does to it.
 
+mod by_saddle;
+mod direct;
+pub mod lanes;
+pub mod patches;
 mod saddle;
 mod series;
 mod single_term;
