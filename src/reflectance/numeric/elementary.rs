@@ -143,3 +143,9 @@ pub fn sin_cos_degrees(angle: f64) -> (f64, f64) {
     // + 0: a zero is +0 whatever the quarter, and 1/cos 90° is +∞.
     (f64::from_bits(a.to_bits() ^ sin_sign) + 0.0, f64::from_bits(b.to_bits() ^ cos_sign) + 0.0)
 }
+
+/// ⌊log₂ |x|⌋ for a normal x.
+#[inline(always)]
+pub fn binary_exponent(x: f64) -> f64 {
+    f64::from_bits(((x.to_bits() >> 52) & 0x7ff) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0)
+}

@@ -5,9 +5,10 @@
 //! one value whatever batch it comes in.
 
 use super::patches::Tier;
-use super::{Method, by_saddle, single_term};
+use super::{LobeSeries, Method, by_saddle, single_term};
 use crate::reflectance::numeric::dispatch::vectorized;
 use crate::reflectance::numeric::elementary::exp;
+use crate::reflectance::numeric::scaled::Scaled;
 
 /// Points in one batch: what the method needs of them stays in the processor's first cache.
 pub const LANES: usize = 128;
@@ -45,6 +46,16 @@ impl Batch {
             condition_x: zero,
             method: [Method::Auto; LANES],
         }
+    }
+
+    /// S at one point; none outside the domain.
+    pub fn get(&self, place: usize) -> Option<LobeSeries> {
+        let method = self.method[place];
+        let (condition_g, condition_x) = (self.condition_g[place], self.condition_x[place]);
+        let value = Scaled::of_parts(self.significand[place], self.exponent[place]);
+        let truncation = self.truncation[place] * (1.0 + self.truncation[place]);
+        (method != Method::Auto)
+            .then(|| LobeSeries::converged(value, truncation, condition_g, condition_x, method))
     }
 }
 

@@ -7,3 +7,6 @@ pub static FULL: Tier = Tier { truncation: 4.5e-16, variance_from: 2.0, patches:
  &[1.0/288., -24.0/288., -30.0/288., -92.0/288., -399.0/288., -420.0/288., 1540.0/288.],
  &[139.0/51840., 540.0/51840., 405.0/51840., -930.0/51840., 12825.0/51840., 129816.0/51840., 278355.0/51840., -810810.0/51840., -2702700.0/51840., 3403400.0/51840.],
 ]}]};
+
+impl Tier { pub fn is_full(&self) -> bool { self.truncation <= FULL.truncation } }
+pub fn within(_tolerance: f64) -> &'static Tier { &FULL }
