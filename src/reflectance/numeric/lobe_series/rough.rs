@@ -33,6 +33,7 @@ pub(super) fn rough(g: f64, x: f64) -> LobeSeries {
 const SECOND: f64 = 3.0;
 
 /// Bound of |e^{-x/g}/g − S|/S, for every g > 0 and x ≥ 0; no rounding included.
+#[inline(always)]
 pub(super) fn bound(g: f64, x: f64) -> f64 {
     let y = x / g;
     let first = 1.0 + y * (0.5 * y - 2.0);
