@@ -1,10 +1,10 @@
 //! The points of a batch that need the saddle: its position by Lambert's W, then R by a polynomial
 //! patch where the sum equals its integral, the sum itself where few terms matter.
 
-use super::Method;
 use super::direct;
 use super::lanes::{Batch, Form, Forms, LANES, Lanes, Places};
 use super::patches::{Patch, Tier};
+use super::Method;
 use crate::reflectance::numeric::elementary::{exp, ln_1p_roughly};
 
 /// The saddles of a batch's points.
