@@ -8,7 +8,7 @@
 mod tests;
 
 use super::patches::Tier;
-use super::{LobeSeries, Method, by_saddle, single_term};
+use super::{LobeSeries, Method, by_saddle, rough, single_term};
 use crate::reflectance::numeric::dispatch::vectorized;
 use crate::reflectance::numeric::elementary::exp;
 use crate::reflectance::numeric::scaled::Scaled;
@@ -121,16 +121,18 @@ impl Places {
 fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
     let count = g.len().min(x.len()).min(LANES);
     let (g, x) = (&g[..count], &x[..count]);
-    let (mut first, mut rough) = (Places::none(), Places::none());
+    let (mut first, mut rough_places) = (Places::none(), Places::none());
     for place in 0..count {
         let (g, x) = (g[place], x[place]);
         let method = if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
             Method::Auto
-        } else if 0.25 * g <= tier.truncation && single_term::second_to_first(g, x) <= tier.truncation {
+        } else if 0.25 * g <= tier.truncation
+            && single_term::rest_to_first(single_term::second_to_first(g, x)) <= tier.truncation
+        {
             first.push(place);
             Method::Smooth
-        } else if single_term::rough_truncation(g, x) <= tier.truncation {
-            rough.push(place);
+        } else if rough::bound(g, x) <= tier.truncation {
+            rough_places.push(place);
             Method::Rough
         } else {
             // Or the sum.
@@ -138,11 +140,11 @@ fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
         };
         batch.method[place] = method;
     }
-    if first.count + rough.count < count {
+    if first.count + rough_places.count < count {
         by_saddle::evaluate(tier, g, x, batch);
     }
     by(first_terms, &first, g, x, batch);
-    by(rough_forms, &rough, g, x, batch);
+    by(rough_forms, &rough_places, g, x, batch);
 }
 
 /// Evaluates `form` at some of the points.
@@ -178,7 +180,7 @@ fn first_terms(g: f64, x: f64) -> Form {
     Form {
         significand: e.significand * g,
         exponent: e.exponent,
-        truncation: ratio / (1.0 - ratio),
+        truncation: single_term::rest_to_first(ratio),
         condition_g: 2.0 + g,
         condition_x: x,
     }
@@ -192,7 +194,7 @@ fn rough_forms(g: f64, x: f64) -> Form {
     Form {
         significand: e.significand / g,
         exponent: e.exponent,
-        truncation: single_term::rough_truncation(g, x),
+        truncation: rough::bound(g, x),
         condition_g: 1.0 + y,
         condition_x: y,
     }
