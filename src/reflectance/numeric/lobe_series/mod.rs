@@ -9,12 +9,15 @@
 //! the value with an exponent that cannot underflow, an error bound that holds, and what an error of
 //! g or x does to it.
 
+mod envelope;
 mod saddle;
 mod series;
 mod single_term;
 #[cfg(test)]
 mod tests;
 mod uniform;
+
+pub use envelope::envelope;
 
 use super::EPSILON;
 use super::scaled::Scaled;
