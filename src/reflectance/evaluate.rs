@@ -2,9 +2,11 @@
 
 use super::columns::Columns;
 use super::directions::Directions;
-use super::findings::{Diagnostic, DiagnosticCode, LISTED_INDICES, Omitted, Warning, WarningCode};
+use super::findings::{Concern, Diagnostic, DiagnosticCode, Omitted, Warning, WarningCode};
 use super::kernel::{Kernel, Reflection};
-use super::scene::{Component, Components, Scene};
+use super::requirement::Requirement;
+use super::scene::Scene;
+use super::strain;
 
 pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
@@ -45,16 +47,19 @@ pub struct Evaluation {
 
 /// Evaluates a scene in every direction.
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
-    let kernel = Kernel::new(scene, quantity);
-    let mut answer = Answer::new(scene, directions.count(), output);
+    let requirement = Requirement::of(scene, directions);
+    let needed = scene.with_only(&requirement.evaluated);
+    let kernel = Kernel::new(&needed, quantity);
+    let mut answer = Answer::new(&needed, directions.count(), output, requirement.share);
     for (index, geometry) in directions.geometries().enumerate() {
         let reflection = kernel.reflect(&geometry);
         answer.push(index, &reflection);
-        if answer.needs_g() {
+        if answer.roughness_g.is_some() {
             answer.push_g(index, kernel.g(&geometry));
         }
     }
-    answer.finish()
+    let warnings = strain::warnings(scene, &requirement, directions);
+    answer.finish(requirement.omitted, warnings)
 }
 
 /// The answer while it is being made.
@@ -66,67 +71,22 @@ struct Answer<'a> {
     counts: [usize; EvaluatedBy::ALL.len()],
     underflow: Concern,
     tolerance: Concern,
-    /// min g over the directions, while the spike is left out.
-    least_g: Option<f64>,
-    lacks_spike: bool,
-}
-
-/// Directions that a warning is about, and the largest value seen.
-#[derive(Default)]
-struct Concern {
-    indices: Vec<usize>,
-    count: usize,
-    largest: f64,
-}
-
-impl Concern {
-    fn add(&mut self, index: usize, value: f64) {
-        if self.indices.len() < LISTED_INDICES {
-            self.indices.push(index);
-        }
-        self.count += 1;
-        self.largest = self.largest.max(value);
-    }
-
-    fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
-        (self.count > 0).then_some(Warning {
-            code,
-            value,
-            parameter: None,
-            indices: self.indices,
-            count: self.count,
-        })
-    }
 }
 
 impl<'a> Answer<'a> {
-    fn new(scene: &'a Scene, count: usize, output: Output) -> Self {
-        let p = scene.parameters();
-        let lacks_spike = p.components == Components::Auto
-            && p.model.components().contains(&Component::SpecularSpike)
-            && !scene.evaluated().contains(&Component::SpecularSpike);
+    fn new(scene: &'a Scene, count: usize, output: Output, omitted_share: f64) -> Self {
         Self {
             scene,
-            columns: Columns::new(scene.evaluated(), count, output.log10),
+            columns: Columns { omitted_share, ..Columns::new(scene.evaluated(), count, output.log10) },
             method: output.per_direction.then(|| Vec::with_capacity(count)),
             roughness_g: output.per_direction.then(|| Vec::with_capacity(count)),
             counts: [0; EvaluatedBy::ALL.len()],
             underflow: Concern::default(),
             tolerance: Concern::default(),
-            least_g: None,
-            lacks_spike,
         }
-    }
-
-    /// Whether g is asked for, or tells how much the omitted spike carries.
-    fn needs_g(&self) -> bool {
-        self.roughness_g.is_some() || self.lacks_spike
     }
 
     fn push_g(&mut self, index: usize, g: Option<f64>) {
-        if let Some(g) = g {
-            self.least_g = Some(self.least_g.map_or(g, |least| least.min(g)));
-        }
         if let Some(column) = &mut self.roughness_g {
             column.push(g.unwrap_or(f64::NAN));
             if g.is_none() {
@@ -157,24 +117,8 @@ impl<'a> Answer<'a> {
         }
     }
 
-    fn finish(self) -> Evaluation {
-        let (mut omitted, mut warnings) = (Vec::new(), Vec::new());
+    fn finish(self, omitted: Vec<Omitted>, mut warnings: Vec<Warning>) -> Evaluation {
         let methods = EvaluatedBy::ALL.into_iter().zip(self.counts).filter(|(_, count)| *count > 0).collect();
-        let p = self.scene.parameters();
-        if self.lacks_spike {
-            omitted.push(Omitted {
-                component: Component::SpecularSpike,
-                bound: None,
-                reason: "the specular spike depends on the sensor's footprint and none was given",
-            });
-            let share = self.least_g.map(|g| libm::exp(-g));
-            if share.is_none_or(|share| share > p.accuracy.relative_tolerance.get()) {
-                warnings.push(Warning::of_scene(WarningCode::SpikeWithoutSensor, share, None));
-            }
-        }
-        let unused = self.scene.unused().into_iter();
-        warnings
-            .extend(unused.map(|name| Warning::of_scene(WarningCode::ParameterNotUsed, None, Some(name))));
         let largest = self.tolerance.largest;
         warnings.extend(
             self.tolerance
@@ -182,7 +126,7 @@ impl<'a> Answer<'a> {
                 .into_iter()
                 .chain(self.underflow.warning(WarningCode::Underflow, None)),
         );
-        let Columns { total, log10_total, components, relative_error_bound, diagnostics } = self.columns;
+        let Columns { total, log10_total, components, relative_error_bound, diagnostics, .. } = self.columns;
         Evaluation {
             total,
             log10_total,

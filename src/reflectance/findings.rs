@@ -43,6 +43,34 @@ impl Warning {
 /// Indices listed by one warning.
 pub const LISTED_INDICES: usize = 20;
 
+/// Directions that a warning is about, and the largest value seen.
+#[derive(Default)]
+pub(super) struct Concern {
+    indices: Vec<usize>,
+    count: usize,
+    pub(super) largest: f64,
+}
+
+impl Concern {
+    pub(super) fn add(&mut self, index: usize, value: f64) {
+        if self.indices.len() < LISTED_INDICES {
+            self.indices.push(index);
+        }
+        self.count += 1;
+        self.largest = self.largest.max(value);
+    }
+
+    pub(super) fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
+        (self.count > 0).then_some(Warning {
+            code,
+            value,
+            parameter: None,
+            indices: self.indices,
+            count: self.count,
+        })
+    }
+}
+
 /// The warnings there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WarningCode {

@@ -20,11 +20,7 @@ const SLACK: f64 = 1e-13;
 pub fn envelope(g: f64, x: f64) -> (f64, f64) {
     let saddle = Saddle::of(g, x);
     let Saddle { u, mu, w } = saddle;
-    let psi = if u < 0.5 {
-        g * (libm::expm1(u) - 2.0 * u * libm::exp(u))
-    } else {
-        (mu - g) - 2.0 * x / mu
-    };
+    let psi = if u < 0.5 { g * (libm::expm1(u) - 2.0 * u * libm::exp(u)) } else { (mu - g) - 2.0 * x / mu };
     let slack = SLACK * (1.0 + psi.abs() + x / mu * w);
     // 1/m ≤ 1/(m + 1) + 3/((m + 1)(m + 2)) for m ≥ 1, and the first term alone for small μ.
     let without_x = if mu < 1.0 { mu } else { 1.0 / mu + 3.0 / mu / mu };
@@ -73,7 +69,8 @@ mod tests {
             (state >> 11) as f64 / 9007199254740992.0
         };
         for round in 0..60_000 {
-            let g = 10f64.powf(if round % 3 == 0 { 600.0 * uniform() - 300.0 } else { 16.0 * uniform() - 8.0 });
+            let g =
+                10f64.powf(if round % 3 == 0 { 600.0 * uniform() - 300.0 } else { 16.0 * uniform() - 8.0 });
             // u from 1e-8 to 300, or x on its own.
             let x = match round % 4 {
                 0 => 10f64.powf(16.0 * uniform() - 8.0),
