@@ -60,6 +60,14 @@ impl Concern {
         self.largest = self.largest.max(value);
     }
 
+    /// Those of the directions that follow.
+    pub(super) fn append(&mut self, next: &Self) {
+        let room = LISTED_INDICES - self.indices.len();
+        self.indices.extend(next.indices.iter().take(room));
+        self.count += next.count;
+        self.largest = self.largest.max(next.largest);
+    }
+
     pub(super) fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
         (self.count > 0).then_some(Warning {
             code,
