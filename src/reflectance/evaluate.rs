@@ -133,7 +133,13 @@ impl<'a> Answer<'a> {
 
     /// Directions in which one component is all there is; none of the numbers needs a word but those that are 0
     /// because they underflow.
-    pub(super) fn extend(&mut self, first: usize, values: &[f64], bounds: &[f64], by: impl Fn(usize) -> EvaluatedBy) {
+    pub(super) fn extend(
+        &mut self,
+        first: usize,
+        values: &[f64],
+        bounds: &[f64],
+        by: impl Fn(usize) -> EvaluatedBy,
+    ) {
         self.columns.extend(values, bounds);
         let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
         for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {

@@ -1,8 +1,8 @@
 //! A scene made ready: what does not depend on the direction is worked out once, what does is
 //! evaluated without allocating.
 
-use super::beckmann_spizzichino::lanes::Common;
 use super::beckmann_spizzichino::RelativeRoughness;
+use super::beckmann_spizzichino::lanes::Common;
 use super::estimate::Estimate;
 use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
@@ -155,7 +155,9 @@ impl<'a> Kernel<'a> {
             && self.shadowing == Shadowing::None;
         let (roughness, _) = self.series().filter(|_| alone)?;
         match self.quantity {
-            Quantity::Radiance => Some(Common { roughness, strength: self.irradiance, over_both_cosines: false }),
+            Quantity::Radiance => {
+                Some(Common { roughness, strength: self.irradiance, over_both_cosines: false })
+            }
             Quantity::Brdf => Some(Common { roughness, strength: 1.0, over_both_cosines: true }),
             Quantity::ImageIrradiance { .. } => None,
         }
