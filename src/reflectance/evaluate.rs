@@ -186,6 +186,11 @@ impl<'a> Answer<'a> {
 
     fn finish(self, omitted: Vec<Omitted>, mut warnings: Vec<Warning>) -> Evaluation {
         let methods = EvaluatedBy::ALL.into_iter().zip(self.counts).filter(|(_, count)| *count > 0).collect();
+        warnings.extend(strain::out_of_range(
+            self.scene,
+            &self.columns.total,
+            &self.columns.relative_error_bound,
+        ));
         let largest = self.tolerance.largest;
         warnings.extend(
             self.tolerance

@@ -218,10 +218,8 @@ impl<'a> Search<'a> {
         for (bound, &component) in bounds.iter_mut().zip(self.components) {
             *bound = self.envelopes.of(component, &region);
         }
-        for set in 1..8 {
-            if undecided[set] {
-                undecided[set] = !self.settles(set, &bounds);
-            }
+        for (set, undecided) in undecided.iter_mut().enumerate() {
+            *undecided = *undecided && !self.settles(set, &bounds);
         }
         if undecided == [false; 8] {
             return;
