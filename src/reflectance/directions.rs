@@ -37,6 +37,13 @@ impl<A: Copy> Angles<A> {
         }
     }
 
+    fn some(&self, indices: &[usize]) -> Self {
+        match self {
+            Self::One(angle) => Self::One(*angle),
+            Self::Each(angles) => Self::Each(indices.iter().map(|&index| angles[index]).collect()),
+        }
+    }
+
     fn at(&self, index: usize) -> A {
         match self {
             Self::One(angle) => *angle,
@@ -162,6 +169,16 @@ impl Directions {
     /// θ_i, θ_r and φ_r of direction `index` < N.
     pub fn angles(&self, index: usize) -> (SourceZenith, ViewerZenith, Azimuth) {
         (self.theta_i.at(index), self.theta_r.at(index), self.phi_r.at(index))
+    }
+
+    /// The directions of these indices, of which there is at least one.
+    pub(super) fn at(&self, indices: &[usize]) -> Self {
+        Self {
+            theta_i: self.theta_i.some(indices),
+            theta_r: self.theta_r.some(indices),
+            phi_r: self.phi_r.some(indices),
+            count: indices.len(),
+        }
     }
 
     /// The geometry of direction `index` < N.

@@ -143,6 +143,11 @@ impl WarningCode {
         }
     }
 
+    /// Whether it is known only once the values are.
+    pub(super) const fn depends_on_values(self) -> bool {
+        matches!(self, Self::MethodOutOfRange | Self::ToleranceNotMet | Self::Underflow)
+    }
+
     /// What it means.
     pub const fn detail(self) -> &'static str {
         match self {

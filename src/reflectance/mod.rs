@@ -7,6 +7,7 @@ pub mod beckmann_spizzichino;
 mod block;
 pub mod bounds;
 pub mod columns;
+mod cost;
 pub mod degrees;
 pub mod diagram;
 pub mod directions;

@@ -29,6 +29,11 @@ pub fn envelope(g: f64, x: f64) -> (f64, f64) {
     (jensen(g, x, &saddle, psi - slack).max(term), upper)
 }
 
+/// μ/w: the variance of the terms about the saddle, for g > 0 and x ≥ 0.
+pub fn variance(g: f64, x: f64) -> f64 {
+    Saddle::of(g, x).variance()
+}
+
 /// Jensen's inequality over the terms of S(μ, 0): with ln(μ/g) = x/μ², the exponent is
 /// μ − g + ln S(μ, 0) − x E\[m\]/μ² − x E\[1/m\].
 fn jensen(g: f64, x: f64, saddle: &Saddle, psi: f64) -> f64 {

@@ -21,7 +21,7 @@ mod single_term;
 mod tests;
 mod uniform;
 
-pub use envelope::envelope;
+pub use envelope::{envelope, variance};
 
 use super::EPSILON;
 use super::scaled::Scaled;
