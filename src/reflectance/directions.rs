@@ -21,6 +21,13 @@ impl<A: Copy> Angles<A> {
         }
     }
 
+    fn select(&self, indices: &[usize]) -> Self {
+        match self {
+            Self::One(angle) => Self::One(*angle),
+            Self::Each(angles) => Self::Each(indices.iter().map(|&index| angles[index]).collect()),
+        }
+    }
+
     fn at(&self, index: usize) -> A {
         match self {
             Self::One(angle) => *angle,
@@ -106,6 +113,17 @@ impl Directions {
             }
         }
         errors
+    }
+
+    /// Some of the directions, at least one, each index < N.
+    #[must_use]
+    pub fn select(&self, indices: &[usize]) -> Self {
+        Self {
+            theta_i: self.theta_i.select(indices),
+            theta_r: self.theta_r.select(indices),
+            phi_r: self.phi_r.select(indices),
+            count: indices.len(),
+        }
     }
 
     /// A curve: as many source as viewer zeniths, at least one.

@@ -33,5 +33,6 @@ pub mod shadowing;
 pub mod surface;
 pub mod table;
 pub mod torrance_sparrow;
+pub mod tradeoff;
 pub mod unified;
 pub mod waves;
