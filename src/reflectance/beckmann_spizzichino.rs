@@ -5,6 +5,8 @@
 //! report's wave impedance and field amplitude never enter. The lobe carries D², the spike is
 //! (47) as printed, without it (errata E15).
 
+pub(super) mod lanes;
+
 use super::estimate::Estimate;
 use super::geometry::Geometry;
 use super::numeric::EPSILON;
@@ -32,13 +34,23 @@ const ALONG_UNITS: f64 = 12.0;
 impl RelativeRoughness {
     /// g of (34), the roughness the light sees between these directions.
     pub fn g(&self, geometry: &Geometry) -> f64 {
-        let root = 2.0 * PI * self.height * geometry.cos_sum;
+        self.g_of(geometry.cos_sum)
+    }
+
+    #[inline(always)]
+    fn g_of(&self, cos_sum: f64) -> f64 {
+        let root = 2.0 * PI * self.height * cos_sum;
         root * root
     }
 
     /// x = v_xy² T²/4, the exponent of (33) times m.
     pub fn x(&self, geometry: &Geometry) -> f64 {
-        let root = PI * self.correlation_length * geometry.horizontal;
+        self.x_of(geometry.horizontal)
+    }
+
+    #[inline(always)]
+    fn x_of(&self, horizontal: f64) -> f64 {
+        let root = PI * self.correlation_length * horizontal;
         root * root
     }
 
@@ -57,7 +69,7 @@ impl RelativeRoughness {
 
     /// (47)'s second term from a value of S: π/4 · (T/λ)² · (q (1 + tan² α))² · S/cos θ_r. A quarter
     /// of the last square is cos² θ_i D².
-    fn lobe_of(&self, geometry: &Geometry, over_cosines: f64, series: &LobeSeries) -> Estimate {
+    pub(super) fn lobe_of(&self, geometry: &Geometry, over_cosines: f64, series: &LobeSeries) -> Estimate {
         let length = Scaled::new(geometry.length());
         let facet_factor = length.squared() / Scaled::new(geometry.cos_sum);
         let patch = Scaled::new(self.correlation_length) * facet_factor;

@@ -51,15 +51,43 @@ impl Columns {
         }
     }
 
-    /// Adds a direction; `estimates` by [`Component::index`].
-    pub(super) fn push(&mut self, index: usize, estimates: &[Option<Estimate>; 3]) -> Total {
+    /// Adds directions in which one component is all there is, and an ordinary number.
+    pub(super) fn extend(&mut self, values: &[f64], bounds: &[f64]) {
+        self.total.extend_from_slice(values);
+        self.relative_error_bound.extend_from_slice(bounds);
+        for column in &mut self.components {
+            column.values.extend_from_slice(values);
+        }
+    }
+
+    /// Adds the directions that follow these.
+    pub(super) fn append(&mut self, mut next: Self) {
+        self.total.append(&mut next.total);
+        self.relative_error_bound.append(&mut next.relative_error_bound);
+        self.diagnostics.append(&mut next.diagnostics);
+        if let (Some(column), Some(mut next)) = (&mut self.log10_total, next.log10_total) {
+            column.append(&mut next);
+        }
+        for (column, mut next) in self.components.iter_mut().zip(next.components) {
+            column.values.append(&mut next.values);
+            if let (Some(column), Some(mut next)) = (&mut column.log10, next.log10) {
+                column.append(&mut next);
+            }
+        }
+    }
+
+    /// Adds a direction; `estimates` by [`Component::index`], and their sum.
+    pub(super) fn push(
+        &mut self,
+        index: usize,
+        estimates: &[Option<Estimate>; 3],
+        total: Estimate,
+    ) -> Total {
         let first_diagnostic = self.diagnostics.len();
         let diagnostics = &mut self.diagnostics;
-        let mut total = Estimate::ZERO;
         for column in &mut self.components {
             // Every evaluated component has a value: the scene was checked for what it needs.
             let Some(estimate) = estimates[column.component.index()] else { continue };
-            total = total.plus(estimate);
             column.values.push(finite(estimate.value, index, first_diagnostic, diagnostics));
             if let Some(log10) = &mut column.log10 {
                 log10.push(logarithm(estimate, index, first_diagnostic, diagnostics));

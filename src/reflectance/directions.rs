@@ -2,7 +2,9 @@
 
 use super::bounds;
 use super::geometry::Geometry;
-use super::quantity::{Azimuth, SourceZenith, ViewerZenith};
+use super::geometry::lanes::{AngleLanes, DirectionLanes};
+use super::numeric::lobe_series::lanes::LANES;
+use super::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
 
 /// One angle for all directions, or one for each.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +34,26 @@ impl<A: Copy> Angles<A> {
         match self {
             Self::One(angle) => *angle,
             Self::Each(angles) => angles[index],
+        }
+    }
+
+    /// Those of the directions from `first` on.
+    fn lanes(&self, first: usize, lanes: &mut AngleLanes)
+    where
+        A: Quantity,
+    {
+        match self {
+            Self::One(angle) => {
+                if !lanes.is_one {
+                    lanes.degrees = [angle.get(); LANES];
+                    lanes.is_one = true;
+                }
+            }
+            Self::Each(angles) => {
+                for (lane, angle) in lanes.degrees.iter_mut().zip(&angles[first..]) {
+                    *lane = angle.get();
+                }
+            }
         }
     }
 }
@@ -155,5 +177,13 @@ impl Directions {
     /// All geometries in order.
     pub fn geometries(&self) -> impl Iterator<Item = Geometry> + '_ {
         (0..self.count).map(|index| self.geometry(index))
+    }
+
+    /// The `count` directions from `first` on, which are among the N and not more than a block holds.
+    pub(super) fn block(&self, first: usize, count: usize, lanes: &mut DirectionLanes) {
+        lanes.count = count;
+        self.theta_i.lanes(first, &mut lanes.theta_i);
+        self.theta_r.lanes(first, &mut lanes.theta_r);
+        self.phi_r.lanes(first, &mut lanes.phi_r);
     }
 }

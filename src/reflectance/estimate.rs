@@ -68,6 +68,11 @@ impl Estimate {
         Self { value, error: self.error + other.error + value * EPSILON, least: self.least + other.least }
     }
 
+    /// The sum of those that are there.
+    pub fn total(parts: &[Option<Self>]) -> Self {
+        parts.iter().flatten().fold(Self::ZERO, |total, &part| total.plus(part))
+    }
+
     /// error/least: 0 for an exact value, infinite where nothing is known to be there.
     pub fn relative_error(self) -> f64 {
         if self.error.is_zero() { 0.0 } else { (self.error / self.least).to_f64() }

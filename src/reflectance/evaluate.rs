@@ -1,10 +1,13 @@
 //! From a scene and directions to answers: one pass, columns of f64, no allocation per direction.
 
+use super::block::Block;
 use super::columns::Columns;
 use super::directions::Directions;
 use super::findings::{Diagnostic, DiagnosticCode, LISTED_INDICES, Omitted, Warning, WarningCode};
 use super::kernel::{Kernel, Reflection};
+use super::numeric::lobe_series::lanes::LANES;
 use super::scene::{Component, Components, Scene};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
@@ -43,22 +46,37 @@ pub struct Evaluation {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Evaluates a scene in every direction.
+/// Directions that one thread evaluates at a time: some tens of microseconds of work at least.
+const PART: usize = 16 * LANES;
+
+/// Evaluates a scene in every direction; many directions on all threads of rayon's current pool.
+///
+/// A direction's answer does not depend on the others.
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
     let kernel = Kernel::new(scene, quantity);
-    let mut answer = Answer::new(scene, directions.count(), output);
-    for (index, geometry) in directions.geometries().enumerate() {
-        let reflection = kernel.reflect(&geometry);
-        answer.push(index, &reflection);
-        if answer.needs_g() {
-            answer.push_g(index, kernel.g(&geometry));
-        }
+    let count = directions.count();
+    let part = |first: usize| {
+        let end = count.min(first + PART);
+        let mut answer = Answer::new(scene, end - first, output);
+        Block::new().evaluate(&kernel, directions, first..end, &mut answer);
+        answer
+    };
+    if count <= PART {
+        return part(0).finish();
     }
-    answer.finish()
+    let mut whole = Answer::new(scene, count, output);
+    // A few parts a thread at a time, so that what is not yet in its place stays small.
+    let at_once = 4 * PART * rayon::current_num_threads();
+    for first in (0..count).step_by(at_once) {
+        let starts: Vec<usize> = (first..count.min(first + at_once)).step_by(PART).collect();
+        let parts: Vec<Answer> = starts.into_par_iter().map(part).collect();
+        parts.into_iter().for_each(|part| whole.append(part));
+    }
+    whole.finish()
 }
 
 /// The answer while it is being made.
-struct Answer<'a> {
+pub(super) struct Answer<'a> {
     scene: &'a Scene,
     columns: Columns,
     method: Option<Vec<EvaluatedBy>>,
@@ -86,6 +104,14 @@ impl Concern {
         }
         self.count += 1;
         self.largest = self.largest.max(value);
+    }
+
+    /// Those of the directions that follow.
+    fn append(&mut self, next: &Self) {
+        let room = LISTED_INDICES - self.indices.len();
+        self.indices.extend(next.indices.iter().take(room));
+        self.count += next.count;
+        self.largest = self.largest.max(next.largest);
     }
 
     fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
@@ -119,11 +145,11 @@ impl<'a> Answer<'a> {
     }
 
     /// Whether g is asked for, or tells how much the omitted spike carries.
-    fn needs_g(&self) -> bool {
+    pub(super) fn needs_g(&self) -> bool {
         self.roughness_g.is_some() || self.lacks_spike
     }
 
-    fn push_g(&mut self, index: usize, g: Option<f64>) {
+    pub(super) fn push_g(&mut self, index: usize, g: Option<f64>) {
         if let Some(g) = g {
             self.least_g = Some(self.least_g.map_or(g, |least| least.min(g)));
         }
@@ -135,8 +161,8 @@ impl<'a> Answer<'a> {
         }
     }
 
-    fn push(&mut self, index: usize, reflection: &Reflection) {
-        let total = self.columns.push(index, &reflection.components);
+    pub(super) fn push(&mut self, index: usize, reflection: &Reflection) {
+        let total = self.columns.push(index, &reflection.components, reflection.total);
         if total.relative_error_bound > self.scene.parameters().accuracy.relative_tolerance.get()
             && total.exact.is_finite()
         {
@@ -146,6 +172,44 @@ impl<'a> Answer<'a> {
             self.underflow.add(index, 0.0);
         }
         self.count(reflection.evaluated_by);
+    }
+
+    /// Directions in which one component is all there is; none of the numbers needs a word but those that are 0
+    /// because they underflow.
+    pub(super) fn extend(&mut self, first: usize, values: &[f64], bounds: &[f64], by: impl Fn(usize) -> EvaluatedBy) {
+        self.columns.extend(values, bounds);
+        let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
+        for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
+            if bound > tolerance {
+                self.tolerance.add(first + place, bound);
+            }
+            if value == 0.0 {
+                self.underflow.add(first + place, 0.0);
+            }
+            self.count(by(place));
+        }
+    }
+
+    /// The logarithms are asked for.
+    pub(super) fn has_logarithms(&self) -> bool {
+        self.columns.log10_total.is_some()
+    }
+
+    /// The directions that follow these.
+    fn append(&mut self, next: Self) {
+        self.columns.append(next.columns);
+        if let (Some(column), Some(mut next)) = (&mut self.method, next.method) {
+            column.append(&mut next);
+        }
+        if let (Some(column), Some(mut next)) = (&mut self.roughness_g, next.roughness_g) {
+            column.append(&mut next);
+        }
+        for (count, next) in self.counts.iter_mut().zip(next.counts) {
+            *count += next;
+        }
+        self.underflow.append(&next.underflow);
+        self.tolerance.append(&next.tolerance);
+        self.least_g = self.least_g.into_iter().chain(next.least_g).reduce(f64::min);
     }
 
     fn count(&mut self, by: EvaluatedBy) {

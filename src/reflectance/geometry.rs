@@ -1,8 +1,37 @@
 //! Source and viewer as the models need them: cosines, the half vector and the wave vector
 //! v = k₁ − k₂ of (28), each in a form in which nothing cancels.
 
+pub(super) mod lanes;
+
 use super::degrees::SinCos;
 use super::quantity::{Azimuth, SourceZenith, ViewerZenith};
+
+/// What a geometry is made of.
+#[derive(Clone, Copy, Debug)]
+struct Sines {
+    /// Of `θ_i`
+    source: SinCos,
+    /// Of |`θ_r`|
+    viewer: SinCos,
+    /// Of (`θ_i` − |`θ_r`|)/2
+    half_difference: SinCos,
+    /// Of `φ_r`/2
+    half_azimuth: SinCos,
+    /// Of `φ_r`
+    azimuth: SinCos,
+    /// `θ_r` < 0
+    behind: bool,
+}
+
+/// √(a² + b²) for magnitudes up to 1, without squares that underflow. Relative error below 3 ε.
+#[inline(always)]
+fn hypotenuse(a: f64, b: f64) -> f64 {
+    let (a, b) = (a.abs(), b.abs());
+    let (large, small) = if a > b { (a, b) } else { (b, a) };
+    // The smallest normal number in place of 0: a quotient 0/0 would be none.
+    let ratio = small / large.max(f64::MIN_POSITIVE);
+    large * (1.0 + ratio * ratio).sqrt()
+}
 
 /// One pair of directions. The source lies at azimuth 180° of the x axis' half plane, so that
 /// azimuth 0 of the viewer holds the mirror direction, as in figure 7.
@@ -33,21 +62,29 @@ pub struct Geometry {
 impl Geometry {
     /// From angles in degrees.
     pub fn new(theta_i: SourceZenith, theta_r: ViewerZenith, phi_r: Azimuth) -> Self {
-        let zenith = theta_r.get().abs();
-        let mut half_azimuth = SinCos::of_degrees(phi_r.get() / 2.0);
-        let mut cos_azimuth = SinCos::of_degrees(phi_r.get()).cos;
-        if theta_r.get() < 0.0 {
-            // The same zenith at φ_r + 180°: half of it is φ_r/2 + 90°, exactly.
-            half_azimuth = SinCos { sin: half_azimuth.cos, cos: -half_azimuth.sin };
-            cos_azimuth = -cos_azimuth;
-        }
-        Self::from_parts(
-            SinCos::of_degrees(theta_i.get()),
-            SinCos::of_degrees(zenith),
-            SinCos::of_degrees((theta_i.get() - zenith) / 2.0),
-            half_azimuth,
-            cos_azimuth,
-        )
+        let (theta_i, theta_r, phi_r) = (theta_i.get(), theta_r.get(), phi_r.get());
+        Self::of_sines(&Sines {
+            source: SinCos::of_degrees(theta_i),
+            viewer: SinCos::of_degrees(theta_r.abs()),
+            half_difference: SinCos::of_degrees((theta_i - theta_r.abs()) / 2.0),
+            half_azimuth: SinCos::of_degrees(phi_r / 2.0),
+            azimuth: SinCos::of_degrees(phi_r),
+            behind: theta_r < 0.0,
+        })
+    }
+
+    /// From sines and cosines of the angles.
+    #[inline(always)]
+    fn of_sines(sines: &Sines) -> Self {
+        let Sines { source, viewer, half_difference, half_azimuth, azimuth, behind } = *sines;
+        // The same zenith at φ_r + 180°: half of it is φ_r/2 + 90°, exactly.
+        let turned = SinCos { sin: half_azimuth.cos, cos: -half_azimuth.sin };
+        let half_azimuth = SinCos {
+            sin: if behind { turned.sin } else { half_azimuth.sin },
+            cos: if behind { turned.cos } else { half_azimuth.cos },
+        };
+        let cos_azimuth = if behind { -azimuth.cos } else { azimuth.cos };
+        Self::from_parts(source, viewer, half_difference, half_azimuth, cos_azimuth)
     }
 
     /// From angles in radians, taken as the exact doubles; `θ_i` may exceed π/2 (a source behind).
@@ -61,6 +98,7 @@ impl Geometry {
         )
     }
 
+    #[inline(always)]
     fn from_parts(
         i: SinCos,
         r: SinCos,
@@ -81,7 +119,7 @@ impl Geometry {
             cos_azimuth,
             cos_sum,
             sin_difference,
-            horizontal: libm::hypot(sin_difference, across),
+            horizontal: hypotenuse(sin_difference, across),
         }
     }
 

@@ -1,13 +1,15 @@
 //! A scene made ready: what does not depend on the direction is worked out once, what does is
 //! evaluated without allocating.
 
+use super::beckmann_spizzichino::lanes::Common;
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::estimate::Estimate;
 use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
 use super::lambertian;
 use super::numeric::EPSILON;
-use super::numeric::lobe_series::Method;
+use super::numeric::lobe_series::patches::{self, Tier};
+use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
 use super::quantity::{SpecularScale, Wavelength};
 use super::radiometry::Camera;
@@ -84,6 +86,8 @@ impl EvaluatedBy {
 pub(super) struct Reflection {
     /// By [`Component::index`]; none where the component is not evaluated.
     pub(super) components: [Option<Estimate>; 3],
+    /// Their sum.
+    pub(super) total: Estimate,
     pub(super) evaluated_by: EvaluatedBy,
 }
 
@@ -99,6 +103,9 @@ pub(super) struct Kernel<'a> {
     view: Option<View>,
     facets: Option<FacetLobe>,
     method: Method,
+    tolerance: f64,
+    /// What `auto` may leave of the series.
+    tier: &'static Tier,
 }
 
 /// The sensor, its lengths over the wavelength.
@@ -142,6 +149,29 @@ impl<'a> Kernel<'a> {
                 shadowing,
             }),
             method: p.accuracy.method,
+            tolerance: p.accuracy.relative_tolerance.get(),
+            tier: patches::within(p.accuracy.relative_tolerance.get()),
+        }
+    }
+
+    /// The roughness of a scene whose lobe series is left to `auto`, with the truncation it may have.
+    pub(super) fn series(&self) -> Option<(RelativeRoughness, &'static Tier)> {
+        let is_needed = self.scene.parameters().model == Model::BeckmannSpizzichino
+            && self.method == Method::Auto
+            && self.scene.evaluated().contains(&Component::SpecularLobe);
+        self.roughness.filter(|_| is_needed).map(|roughness| (roughness, self.tier))
+    }
+
+    /// What the directions have in common if the answer is nothing but the unshadowed lobe of a perfect conductor.
+    pub(super) fn lobe_alone(&self) -> Option<Common> {
+        let alone = self.scene.evaluated() == [Component::SpecularLobe]
+            && self.medium == Medium::PerfectConductor
+            && self.shadowing == Shadowing::None;
+        let (roughness, _) = self.series().filter(|_| alone)?;
+        match self.quantity {
+            Quantity::Radiance => Some(Common { roughness, strength: self.irradiance, over_both_cosines: false }),
+            Quantity::Brdf => Some(Common { roughness, strength: 1.0, over_both_cosines: true }),
+            Quantity::ImageIrradiance { .. } => None,
         }
     }
 
@@ -150,8 +180,25 @@ impl<'a> Kernel<'a> {
         self.roughness.map(|roughness| roughness.g(geometry))
     }
 
+    /// Whether a bound keeps the tolerance, or no method could keep it.
+    pub(super) fn is_enough(&self, bound: f64, rounding: f64) -> bool {
+        bound <= self.tolerance || rounding > self.tolerance || self.tier.is_full()
+    }
+
+    /// The evaluated components in one direction, from a value of S that is good enough for the tolerance in most
+    /// directions; else from the best one.
+    pub(super) fn reflect(&self, geometry: &Geometry, series: Option<LobeSeries>) -> Reflection {
+        if let Some(series) = series {
+            let reflection = self.reflect_by(geometry, Some(&series));
+            if self.tier.is_full() || reflection.total.relative_error() <= self.tolerance {
+                return reflection;
+            }
+        }
+        self.reflect_by(geometry, None)
+    }
+
     /// The evaluated components in one direction.
-    pub(super) fn reflect(&self, geometry: &Geometry) -> Reflection {
+    fn reflect_by(&self, geometry: &Geometry, series: Option<&LobeSeries>) -> Reflection {
         let mut components = [None; 3];
         let mut evaluated_by = EvaluatedBy::ClosedForm;
         let reflectance = match self.medium {
@@ -166,7 +213,10 @@ impl<'a> Kernel<'a> {
                 Component::SpecularLobe if self.scene.parameters().model == Model::BeckmannSpizzichino => {
                     self.roughness.map(|roughness| {
                         let over = self.shadowing_over_cosines(geometry);
-                        let (lobe, method) = roughness.lobe(geometry, over, self.method);
+                        let (lobe, method) = match series {
+                            Some(series) => (roughness.lobe_of(geometry, over, series), series.method),
+                            None => roughness.lobe(geometry, over, self.method),
+                        };
                         evaluated_by = EvaluatedBy::Lobe(method);
                         self.with_reflectance(lobe, reflectance)
                     })
@@ -183,7 +233,7 @@ impl<'a> Kernel<'a> {
                 Quantity::Radiance | Quantity::Brdf => value,
             };
         }
-        Reflection { components, evaluated_by }
+        Reflection { total: Estimate::total(&components), components, evaluated_by }
     }
 
     /// (57): radiance κ_diff · irradiance · cos θ_i, BRDF κ_diff.

@@ -3,6 +3,7 @@
 use super::beckmann_spizzichino::Patch;
 use super::columns::{Columns, ComponentColumn};
 use super::degrees::{self, SinCos};
+use super::estimate::Estimate;
 use super::directions::Directions;
 use super::findings::Diagnostic;
 use super::image_irradiance::{LinearModel, Offset, Spike, Strengths};
@@ -131,7 +132,7 @@ impl LinearScene {
                 LinearKind::FixedView => model.fixed_view(&geometry, offset),
             };
             let terms = [image.diffuse_lobe, image.specular_lobe, image.specular_spike].map(Some);
-            columns.push(index, &terms);
+            columns.push(index, &terms, Estimate::total(&terms));
             delta_on.push(image.delta_on);
         }
         let Columns { total, log10_total, components, relative_error_bound, diagnostics } = columns;

@@ -4,6 +4,7 @@
 //! Errors are stated in units of ε = 2⁻⁵³ ([`numeric::EPSILON`]), the largest relative error of one rounding.
 
 pub mod beckmann_spizzichino;
+mod block;
 pub mod bounds;
 pub mod columns;
 pub mod degrees;

@@ -1,5 +1,7 @@
 //! Numerical building blocks, each with a stated error.
 
+pub mod dispatch;
+pub mod elementary;
 pub mod lobe_series;
 pub mod quadrature;
 pub mod scaled;

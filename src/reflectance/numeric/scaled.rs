@@ -36,6 +36,11 @@ impl Scaled {
         Self { significand: value, exponent: 0.0 }.normalized()
     }
 
+    /// `significand` · 2^`exponent`, the exponent a whole number.
+    pub fn of_parts(significand: f64, exponent: f64) -> Self {
+        Self { significand, exponent }.normalized()
+    }
+
     /// e^`x` for any finite `x`: relative error below (1 + |x|) ε from the rounding of `x` itself.
     pub fn exp(x: f64) -> Self {
         if x.abs() < 700.0 {

@@ -9,6 +9,10 @@
 //! the value with an exponent that cannot underflow, an error bound that holds, and what an error of
 //! g or x does to it.
 
+mod by_saddle;
+mod direct;
+pub mod lanes;
+pub mod patches;
 mod saddle;
 mod series;
 mod single_term;
@@ -91,7 +95,7 @@ impl LobeSeries {
 
 /// Rounding error of a converged value in units of ε(1 + condition): four times the worst seen on
 /// the oracle's points (docs/accuracy.md).
-const ROUNDING_UNITS: f64 = 48.0;
+pub(in crate::reflectance) const ROUNDING_UNITS: f64 = 48.0;
 
 /// The relative rounding error to allow for a value of this condition.
 fn rounding(condition_g: f64, condition_x: f64) -> f64 {

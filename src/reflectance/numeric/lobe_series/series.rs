@@ -190,7 +190,7 @@ fn deviance(m: f64, g: f64) -> f64 {
 }
 
 /// ln m! − (m + ½) ln m + m − ½ ln 2π, error below 2e-17 for m ≥ 1.
-fn stirling_remainder(m: f64) -> f64 {
+pub(super) fn stirling_remainder(m: f64) -> f64 {
     /// For m = 1 … 15: the series needs m ≥ 16.
     const SMALL: [f64; 16] = [
         0.0,

@@ -41,3 +41,10 @@ pub(super) fn rough_without_roughness(x: f64) -> LobeSeries {
     let estimate = if x > 0.0 { Estimate::ZERO } else { Estimate::INFINITE };
     LobeSeries { estimate, ..LobeSeries::zero(Method::Rough) }
 }
+
+/// temporary
+#[inline(always)]
+pub(super) fn rough_truncation(g: f64, x: f64) -> f64 {
+    let y = x / g;
+    8.0 * (1.0 + y) * (1.0 + y) / g
+}

@@ -1,0 +1,153 @@
+//! The specular lobe of (47) in many directions at once, for directions in which it is an ordinary number: the
+//! rest is left to [`RelativeRoughness::lobe`](super::RelativeRoughness::lobe).
+
+use super::{G_UNITS, PREFACTOR_UNITS, RelativeRoughness, X_UNITS};
+use crate::reflectance::geometry::lanes::Geometries;
+use crate::reflectance::numeric::EPSILON;
+use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
+use crate::reflectance::numeric::elementary::{binary_exponent, scale};
+use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, LANES, Lanes};
+use crate::reflectance::numeric::lobe_series::patches::Tier;
+use crate::reflectance::numeric::lobe_series::{LobeSeries, Method, ROUNDING_UNITS};
+use core::f64::consts::PI;
+
+/// What the directions of a block have in common.
+#[derive(Clone, Copy)]
+pub(in crate::reflectance) struct Common {
+    pub(in crate::reflectance) roughness: RelativeRoughness,
+    /// What multiplies the lobe: the irradiance for a radiance, 1 for a BRDF.
+    pub(in crate::reflectance) strength: f64,
+    /// A BRDF has 1/cos θ_i, too.
+    pub(in crate::reflectance) over_both_cosines: bool,
+}
+
+/// How far the vector path got with a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::reflectance) enum State {
+    /// Value and bound are there.
+    Plain,
+    /// Too small for f64, its truncation within the tier's: the value is 0.
+    Dark,
+    /// Not done: a limit, an overflow, a subnormal number, or a point outside the batch's domain.
+    Left,
+}
+
+/// The lobe in the directions of a block.
+pub(in crate::reflectance) struct LobeLanes {
+    /// g of (34).
+    pub(in crate::reflectance) g: Lanes,
+    x: Lanes,
+    series: Batch,
+    pub(in crate::reflectance) value: Lanes,
+    /// Bound of the relative error.
+    pub(in crate::reflectance) bound: Lanes,
+    /// The part of it that no method can do without.
+    pub(in crate::reflectance) rounding: Lanes,
+    state: Lanes,
+}
+
+impl LobeLanes {
+    pub(in crate::reflectance) const fn new() -> Self {
+        let zero = [0.0; LANES];
+        Self { g: zero, x: zero, series: Batch::new(), value: zero, bound: zero, rounding: zero, state: zero }
+    }
+
+    /// S in each direction.
+    pub(in crate::reflectance) fn expand(
+        &mut self,
+        set: InstructionSet,
+        tier: &Tier,
+        roughness: RelativeRoughness,
+        geometries: &Geometries,
+        count: usize,
+    ) {
+        arguments(set, roughness, geometries, &mut self.g[..count], &mut self.x[..count]);
+        lanes::evaluate(set, tier, &self.g[..count], &self.x[..count], &mut self.series);
+    }
+
+    /// S in one direction, unless the point is outside the batch's domain.
+    pub(in crate::reflectance) fn series(&self, lane: usize) -> Option<LobeSeries> {
+        self.series.get(lane)
+    }
+
+    /// What made S in a direction.
+    pub(in crate::reflectance) fn method(&self, lane: usize) -> Method {
+        self.series.method[lane]
+    }
+
+    /// Value and bound of the unshadowed lobe in each direction, from S.
+    pub(in crate::reflectance) fn combine(
+        &mut self,
+        set: InstructionSet,
+        common: Common,
+        geometries: &Geometries,
+        count: usize,
+    ) {
+        combined(set, common, geometries, count, self);
+    }
+
+    pub(in crate::reflectance) fn state(&self, lane: usize) -> State {
+        if self.series.method[lane] == Method::Auto || self.state[lane] < 0.0 {
+            State::Left
+        } else if self.state[lane] == 0.0 {
+            State::Dark
+        } else {
+            State::Plain
+        }
+    }
+}
+
+vectorized! {
+    fn arguments = g_and_x,
+        (roughness: RelativeRoughness, geometries: &Geometries, g: &mut [f64], x: &mut [f64])
+}
+
+#[inline(always)]
+fn g_and_x(roughness: RelativeRoughness, geometries: &Geometries, g: &mut [f64], x: &mut [f64]) {
+    for (g, &cos_sum) in g.iter_mut().zip(&geometries.cos_sum) {
+        *g = roughness.g_of(cos_sum);
+    }
+    for (x, &horizontal) in x.iter_mut().zip(&geometries.horizontal) {
+        *x = roughness.x_of(horizontal);
+    }
+}
+
+vectorized! {
+    fn combined = value_and_bound, (common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes)
+}
+
+#[inline(always)]
+fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes) {
+    for lane in 0..count.min(LANES) {
+        let (cos_sum, horizontal) = (geometries.cos_sum[lane], geometries.horizontal[lane]);
+        let length_squared = cos_sum * cos_sum + horizontal * horizontal;
+        let patch = common.roughness.correlation_length * (length_squared / cos_sum);
+        let cosines = if common.over_both_cosines { geometries.cos_i[lane] } else { 1.0 };
+        let factor = patch * patch * (0.25 * PI) / (geometries.cos_r[lane] * cosines) * common.strength;
+        let (significand, exponent) = (factor * lobe.series.significand[lane], lobe.series.exponent[lane]);
+        let (condition_g, condition_x) = (lobe.series.condition_g[lane], lobe.series.condition_x[lane]);
+        let rounding = EPSILON
+            * ((ROUNDING_UNITS + PREFACTOR_UNITS)
+                + (ROUNDING_UNITS + G_UNITS) * condition_g
+                + (ROUNDING_UNITS + X_UNITS) * condition_x);
+        // |ln(value/exact)|; e^d − 1 < d + d² for d < 1.
+        let distance = lobe.series.truncation[lane] * (1.0 + lobe.series.truncation[lane]) + rounding;
+        let value = scale(significand, exponent);
+        let size = binary_exponent(significand) + exponent;
+        // Nothing was lost on the way to numbers that are normal.
+        let ordinary = (1e-140..1e140).contains(&patch)
+            && (1e-290..1e290).contains(&factor)
+            && (1e-290..1e290).contains(&significand)
+            && distance < 0.5
+            && size < 1023.0;
+        // Half the smallest subnormal number is 2^−1075.
+        let dark = size < -1080.0;
+        let plain = size > -1021.0;
+        lobe.value[lane] = if dark { 0.0 } else { value };
+        lobe.bound[lane] = if dark { 1.0 } else { distance + distance * distance };
+        lobe.rounding[lane] = rounding;
+        let of_size = if plain { 1.0 } else { -1.0 };
+        let of_size = if dark { 0.0 } else { of_size };
+        lobe.state[lane] = if ordinary { of_size } else { -1.0 };
+    }
+}

@@ -1,0 +1,151 @@
+//! Elementary functions without branches or tables, so that a loop over them becomes vector
+//! instructions. Only sums, products, quotients, roots and comparisons of doubles, never a fused
+//! multiply-add: every instruction set gives the same bits.
+
+/// 3·2^51: adding and subtracting it rounds a double of magnitude below 2^51 to the nearest integer,
+/// which is left in the low bits of the sum.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+/// ln 2 in two parts, the first with 21 trailing zero bits.
+const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
+const LN2_LOW: f64 = 1.908_214_929_270_587_8e-10;
+
+/// e^x = `significand` · 2^`exponent`.
+#[derive(Clone, Copy, Debug)]
+pub struct Exponential {
+    /// Between 0.707 and 1.415.
+    pub significand: f64,
+    /// A whole number.
+    pub exponent: f64,
+    /// `significand` − 1 without its rounding.
+    less_one: f64,
+}
+
+/// e^x for |x| < 1e15, relative error below (2 + |x|) ε, most of it the rounding of x itself.
+#[inline(always)]
+pub fn exp(x: f64) -> Exponential {
+    let exponent = (x * core::f64::consts::LOG2_E + ROUNDER) - ROUNDER;
+    let r = (x - exponent * LN2_HIGH) - exponent * LN2_LOW;
+    // |r| ≤ 0.3466: the first power left out, r^14/14!, is below 5e-18.
+    let tail = 1.0 / 40_320.0
+        + r * (1.0 / 362_880.0
+            + r * (1.0 / 3_628_800.0
+                + r * (1.0 / 39_916_800.0 + r * (1.0 / 479_001_600.0 + r * (1.0 / 6_227_020_800.0)))));
+    let tail = 0.5
+        + r * (1.0 / 6.0
+            + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r * (1.0 / 5040.0 + r * tail)))));
+    let less_one = r + r * r * tail;
+    Exponential { significand: 1.0 + less_one, exponent, less_one }
+}
+
+impl Exponential {
+    /// The value, for exponents from −1022 to 1023.
+    #[inline(always)]
+    pub fn value(self) -> f64 {
+        self.significand * power_of_two(self.exponent)
+    }
+
+    /// e^x − 1 with a relative error below 4 ε, for x from 0 to 700.
+    #[inline(always)]
+    pub fn minus_one(self) -> f64 {
+        let scale = power_of_two(self.exponent);
+        scale * self.less_one + (scale - 1.0)
+    }
+}
+
+/// 2^k for a whole k from −1022 to 1023.
+#[inline(always)]
+pub fn power_of_two(k: f64) -> f64 {
+    // The low bits of the sum are k + 1023; the rest is shifted out.
+    f64::from_bits(((k + 1023.0) + ROUNDER).to_bits() << 52)
+}
+
+/// `significand` · 2^`exponent` for any whole exponent: 0 or infinite beyond f64's range.
+/// Rounded once, subnormal results twice.
+#[inline(always)]
+pub fn scale(significand: f64, exponent: f64) -> f64 {
+    let k = exponent.clamp(-2100.0, 2100.0);
+    let half = (k * 0.5 + ROUNDER) - ROUNDER;
+    let quarter = (half * 0.5 + ROUNDER) - ROUNDER;
+    let step = power_of_two(quarter);
+    let rest = half - quarter;
+    let other = k - half;
+    let other_quarter = (other * 0.5 + ROUNDER) - ROUNDER;
+    significand * step * power_of_two(rest) * power_of_two(other_quarter) * power_of_two(other - other_quarter)
+}
+
+/// ln x for a normal x, relative error below 3 ε.
+#[inline(always)]
+pub fn ln(x: f64) -> f64 {
+    // Brings the significand into [√½, √2) by adding 1 − √½ to the exponent's field.
+    const OFFSET: u64 = 0x3ff0_0000_0000_0000 - 0x3fe6_a09e_667f_3bcd;
+    let bits = x.to_bits().wrapping_add(OFFSET);
+    let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0);
+    let m = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) + 0x3fe6_a09e_667f_3bcd);
+    let f = m - 1.0;
+    let s = f / (m + 1.0);
+    let z = s * s;
+    // |s| ≤ 0.1716: the first power left out is below 1e-17 of the first.
+    let series = z
+        * (1.0 / 3.0
+            + z * (1.0 / 5.0
+                + z * (1.0 / 7.0
+                    + z * (1.0 / 9.0
+                        + z * (1.0 / 11.0
+                            + z * (1.0 / 13.0 + z * (1.0 / 15.0 + z * (1.0 / 17.0 + z * (1.0 / 19.0)))))))));
+    // 2s = f − s f: the rounding of s enters by the small second part only.
+    exponent * LN2_HIGH + (f - (s * f - (2.0 * s * series + exponent * LN2_LOW)))
+}
+
+/// ln(1 + z) for 0 ≤ z < 1e290 to 1e-3, relative to the value also next to 0.
+#[inline(always)]
+pub fn ln_1p_roughly(z: f64) -> f64 {
+    const OFFSET: u64 = 0x3ff0_0000_0000_0000 - 0x3fe6_a09e_667f_3bcd;
+    let bits = (1.0 + z).to_bits().wrapping_add(OFFSET);
+    let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0);
+    let m = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) + 0x3fe6_a09e_667f_3bcd);
+    let s = (m - 1.0) / (m + 1.0);
+    exponent * core::f64::consts::LN_2 + 2.0 * s * (1.0 + s * s * (1.0 / 3.0))
+}
+
+/// sin and cos of an angle in degrees, |angle| ≤ 720, reduced exactly: cos 90° is 0.
+/// Relative error of either below 3 ε.
+#[inline(always)]
+pub fn sin_cos_degrees(angle: f64) -> (f64, f64) {
+    // π/180 = its double + this.
+    const DEGREE_LOW: f64 = 2.948_652_270_870_168_7e-19;
+    let turned = angle * (1.0 / 90.0) + ROUNDER;
+    // Exact: by Sterbenz's lemma, or because the quarter is 0.
+    let r = angle - 90.0 * (turned - ROUNDER);
+    let z = r * r;
+    // The coefficients are (π/180)^k/k!. First powers left out: r^17/17! and r^18/18!, below 6e-17 and 2e-18.
+    let sin_tail = DEGREE_LOW
+        + z * (-8.860_961_557_012_98e-7
+            + z * (1.349_601_623_163_255e-11
+                + z * (-9.788_384_861_617_728e-17
+                    + z * (4.141_267_417_257_320_6e-22
+                        + z * (-1.146_820_177_537_901_6e-27
+                            + z * (2.239_367_970_775_196_7e-33
+                                + z * (-3.248_335_681_954_942e-39 + z * 3.637_866_301_611_077e-45)))))));
+    let sin = r * 0.017_453_292_519_943_295 + r * sin_tail;
+    let cos = 1.0
+        + z * (-1.523_087_098_933_543e-4
+            + z * (3.866_323_851_562_994e-9
+                + z * (-3.925_831_985_743_095e-14
+                    + z * (2.135_494_303_594_986e-19
+                        + z * (-7.227_875_163_670_209e-25
+                            + z * (1.667_982_335_528_525e-30
+                                + z * (-2.791_738_875_266_523_8e-36 + z * 3.543_384_553_758_068_6e-42)))))));
+    let quarter = turned.to_bits();
+    let odd = quarter & 1 == 1;
+    let (a, b) = if odd { (cos, sin) } else { (sin, cos) };
+    let sin_sign = (quarter & 2) << 62;
+    let cos_sign = (quarter.wrapping_add(1) & 2) << 62;
+    // + 0: a zero is +0 whatever the quarter, and 1/cos 90° is +∞.
+    (f64::from_bits(a.to_bits() ^ sin_sign) + 0.0, f64::from_bits(b.to_bits() ^ cos_sign) + 0.0)
+}
+
+/// ⌊log₂ |x|⌋ for a normal x.
+#[inline(always)]
+pub fn binary_exponent(x: f64) -> f64 {
+    f64::from_bits(((x.to_bits() >> 52) & 0x7ff) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0)
+}

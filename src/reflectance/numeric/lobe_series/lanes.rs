@@ -1,0 +1,227 @@
+//! S at many points at once: each is sorted to the cheapest method that keeps the truncation asked
+//! for, and each method's points are evaluated in vector lanes.
+//!
+//! Which method serves depends on g, x and the truncation alone, never on the neighbours, so a point has
+//! one value whatever batch it comes in.
+
+use super::patches::Tier;
+use super::{LobeSeries, Method, by_saddle, single_term};
+use crate::reflectance::numeric::dispatch::vectorized;
+use crate::reflectance::numeric::elementary::exp;
+use crate::reflectance::numeric::scaled::Scaled;
+
+/// Points in one batch: what the method needs of them stays in the processor's first cache.
+pub const LANES: usize = 128;
+
+/// One number a point.
+pub type Lanes = [f64; LANES];
+
+/// S at up to [`LANES`] points: value, and what its bound is made of.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// S · 2^−`exponent`.
+    pub significand: Lanes,
+    /// A whole number.
+    pub exponent: Lanes,
+    /// Bound of the relative truncation error.
+    pub truncation: Lanes,
+    /// |∂ ln S/∂ ln g|
+    pub condition_g: Lanes,
+    /// |∂ ln S/∂ ln x|
+    pub condition_x: Lanes,
+    /// What made the value; [`Method::Auto`] where the point is outside the domain of this file and the rest says
+    /// nothing.
+    pub method: [Method; LANES],
+}
+
+impl Batch {
+    /// Room for a batch.
+    pub const fn new() -> Self {
+        let zero = [0.0; LANES];
+        Self {
+            significand: zero,
+            exponent: zero,
+            truncation: zero,
+            condition_g: zero,
+            condition_x: zero,
+            method: [Method::Auto; LANES],
+        }
+    }
+
+    /// S at one point; none outside the domain.
+    pub fn get(&self, place: usize) -> Option<LobeSeries> {
+        let method = self.method[place];
+        let (condition_g, condition_x) = (self.condition_g[place], self.condition_x[place]);
+        let value = Scaled::of_parts(self.significand[place], self.exponent[place]);
+        let truncation = self.truncation[place] * (1.0 + self.truncation[place]);
+        (method != Method::Auto)
+            .then(|| LobeSeries::converged(value, truncation, condition_g, condition_x, method))
+    }
+}
+
+vectorized! {
+    /// S at the points (`g`, `x`), equally many of each and at most [`LANES`], up to `tier`'s truncation.
+    ///
+    /// Domain of the vector path: 1e-140 ≤ g ≤ 1e140 and 2x/g² ≤ 1e250, |ln S| < 1e15.
+    pub fn evaluate = sorted, (tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch)
+}
+
+/// Positions of some of a batch's points.
+pub(super) struct Places {
+    pub(super) count: usize,
+    at: [u8; LANES],
+}
+
+impl Places {
+    pub(super) const fn none() -> Self {
+        Self { count: 0, at: [0; LANES] }
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "below LANES")]
+    pub(super) fn push(&mut self, place: usize) {
+        self.at[self.count] = place as u8;
+        self.count += 1;
+    }
+
+    #[inline(always)]
+    pub(super) fn all(&self) -> &[u8] {
+        &self.at[..self.count]
+    }
+
+    #[inline(always)]
+    pub(super) fn gather<'a>(&self, from: &[f64], to: &'a mut Lanes) -> &'a [f64] {
+        for (to, &place) in to.iter_mut().zip(self.all()) {
+            *to = from[usize::from(place)];
+        }
+        &to[..self.count]
+    }
+
+    #[inline(always)]
+    fn scatter(&self, from: &[f64], to: &mut Lanes) {
+        for (&from, &place) in from.iter().zip(self.all()) {
+            to[usize::from(place)] = from;
+        }
+    }
+}
+
+#[inline(always)]
+fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
+    let (mut first, mut rough, mut rest) = (Places::none(), Places::none(), Places::none());
+    for (place, (&g, &x)) in g.iter().zip(x).enumerate() {
+        batch.method[place] = Method::Auto;
+        if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
+            continue;
+        }
+        if 0.25 * g <= tier.truncation && single_term::second_to_first(g, x) <= tier.truncation {
+            first.push(place);
+        } else if single_term::rough_truncation(g, x) <= tier.truncation {
+            rough.push(place);
+        } else {
+            rest.push(place);
+        }
+    }
+    if first.count > 0 {
+        by(Method::Smooth, first_terms, &first, g, x, batch);
+    }
+    if rough.count > 0 {
+        by(Method::Rough, rough_forms, &rough, g, x, batch);
+    }
+    if rest.count > 0 {
+        by_saddle::evaluate(tier, &rest, g, x, batch);
+    }
+}
+
+/// Evaluates `form`, significand, exponent and truncation with both conditions, at some of the points.
+#[inline(always)]
+fn by(
+    method: Method,
+    form: impl Fn(f64, f64) -> Form,
+    places: &Places,
+    g: &[f64],
+    x: &[f64],
+    batch: &mut Batch,
+) {
+    let (mut g_there, mut x_there) = ([0.0; LANES], [0.0; LANES]);
+    let (g, x) = (places.gather(g, &mut g_there), places.gather(x, &mut x_there));
+    let mut forms = Forms::new();
+    for (place, (&g, &x)) in g.iter().zip(x).enumerate() {
+        forms.set(place, &form(g, x));
+    }
+    forms.scatter(places, method, batch);
+}
+
+/// One value with what its bound is made of.
+pub(super) struct Form {
+    pub(super) significand: f64,
+    pub(super) exponent: f64,
+    pub(super) truncation: f64,
+    pub(super) condition_g: f64,
+    pub(super) condition_x: f64,
+}
+
+/// Those of many points.
+pub(super) struct Forms {
+    pub(super) significand: Lanes,
+    pub(super) exponent: Lanes,
+    pub(super) truncation: Lanes,
+    pub(super) condition_g: Lanes,
+    pub(super) condition_x: Lanes,
+}
+
+impl Forms {
+    pub(super) const fn new() -> Self {
+        let zero = [0.0; LANES];
+        Self { significand: zero, exponent: zero, truncation: zero, condition_g: zero, condition_x: zero }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, place: usize, form: &Form) {
+        self.significand[place] = form.significand;
+        self.exponent[place] = form.exponent;
+        self.truncation[place] = form.truncation;
+        self.condition_g[place] = form.condition_g;
+        self.condition_x[place] = form.condition_x;
+    }
+
+    #[inline(always)]
+    pub(super) fn scatter(&self, places: &Places, method: Method, batch: &mut Batch) {
+        places.scatter(&self.significand, &mut batch.significand);
+        places.scatter(&self.exponent, &mut batch.exponent);
+        places.scatter(&self.truncation, &mut batch.truncation);
+        places.scatter(&self.condition_g, &mut batch.condition_g);
+        places.scatter(&self.condition_x, &mut batch.condition_x);
+        for &place in places.all() {
+            batch.method[usize::from(place)] = method;
+        }
+    }
+}
+
+/// g e^{−(g + x)}, (48), where the second term is negligible.
+#[inline(always)]
+fn first_terms(g: f64, x: f64) -> Form {
+    let e = exp(-(g + x));
+    // The second term is below 4 times the truncation asked for, so x is below 2 ln(4/g): no overflow.
+    let ratio = 0.25 * g * exp(0.5 * x).value();
+    Form {
+        significand: e.significand * g,
+        exponent: e.exponent,
+        truncation: ratio / (1.0 - ratio),
+        condition_g: 2.0 + g,
+        condition_x: x,
+    }
+}
+
+/// e^{−y}/g, (49), y = x/g.
+#[inline(always)]
+fn rough_forms(g: f64, x: f64) -> Form {
+    let y = x / g;
+    let e = exp(-y);
+    Form {
+        significand: e.significand / g,
+        exponent: e.exponent,
+        truncation: single_term::rough_truncation(g, x),
+        condition_g: 1.0 + y,
+        condition_x: y,
+    }
+}
