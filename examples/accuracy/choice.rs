@@ -1,40 +1,30 @@
 //! What `auto` takes where.
 
 use crate::page::{Column, Table, two_digits};
-use crate::plane::{self, FIRST, Grid, LAST};
+use crate::plane::{self, FIRST, LAST, TOLERANCES};
 use crate::scenes::Probe;
 use reflectance::reflectance::numeric::lobe_series::Method;
 
-/// Tolerances whose choices are shown.
-pub(crate) const TOLERANCES: [f64; 6] = [1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13];
 /// x/g = tan²α/tan²α₀ of the lines along which the boundaries are looked for: the mirror direction, the slope at which
 /// the lobe falls to 1/e, and the lobe's tail.
 const LINES: [f64; 3] = [0.0, 1.0, 10.0];
 /// Steps of a decade in the search for boundaries.
 const STEPS: i32 = 50;
 
-/// The choices at one tolerance.
-pub(crate) struct Map {
-    pub(crate) tolerance: f64,
-    pub(crate) cells: Grid<Method>,
-    /// By line: the methods in order of g, each with the g from which on it is taken.
-    lines: Vec<Vec<(f64, Method)>>,
+/// The methods in order of g, each with the g from which on it is taken.
+pub(crate) type Sequence = Vec<(f64, Method)>;
+
+/// The sequences along every line, by tolerance.
+pub(crate) fn measured() -> Vec<(f64, Vec<Sequence>)> {
+    let probe = Probe::new();
+    TOLERANCES.map(|tolerance| (tolerance, LINES.map(|ratio| along(&probe, ratio, tolerance)).into())).into()
 }
 
-impl Map {
-    pub(crate) fn measured(tolerance: f64) -> Self {
-        let probe = Probe::new();
-        let cells = plane::grid(|g, x| probe.choice(g, x, tolerance));
-        let lines = LINES.map(|ratio| along(&probe, ratio, tolerance)).into();
-        Self { tolerance, cells, lines }
-    }
-}
-
-fn along(probe: &Probe, ratio: f64, tolerance: f64) -> Vec<(f64, Method)> {
-    let mut found: Vec<(f64, Method)> = Vec::new();
+fn along(probe: &Probe, ratio: f64, tolerance: f64) -> Sequence {
+    let mut found = Sequence::new();
     for step in FIRST * STEPS..=LAST * STEPS {
         let g = 10f64.powf(f64::from(step) / f64::from(STEPS));
-        let method = probe.choice(g, ratio * g, tolerance);
+        let (_, method) = probe.auto(g, ratio * g, tolerance);
         if found.last().is_none_or(|(_, last)| *last != method) {
             found.push((g, method));
         }
@@ -43,17 +33,17 @@ fn along(probe: &Probe, ratio: f64, tolerance: f64) -> Vec<(f64, Method)> {
 }
 
 /// How much of the plane each method gets.
-pub(crate) fn shares(maps: &[Map]) -> Table {
+pub(crate) fn shares(map: &plane::Map) -> Table {
     let methods: Vec<_> = Method::ALL.into_iter().filter(|&method| method != Method::Auto).collect();
     let mut columns = vec![("tolerance".to_owned(), Column::Text)];
     columns.extend(methods.iter().map(|method| (format!("`{}`, %", method.name()), Column::Share)));
-    let rows = maps.iter().map(|map| {
-        let cells: Vec<Method> = map.cells.iter().flatten().flatten().copied().collect();
+    let rows = map.auto().map(|(tolerance, layer)| {
+        let cells: Vec<Method> = layer.cells.iter().flatten().flatten().map(|off| off.method).collect();
         let share = |method: &Method| {
             let taken = cells.iter().filter(|cell| *cell == method).count();
             format!("{:.1}", 100.0 * taken as f64 / cells.len() as f64)
         };
-        let mut row = vec![format!("{:e}", map.tolerance)];
+        let mut row = vec![format!("{tolerance:e}")];
         row.extend(methods.iter().map(share));
         row
     });
@@ -61,7 +51,7 @@ pub(crate) fn shares(maps: &[Map]) -> Table {
 }
 
 /// Along each line, the g at which the choice changes.
-pub(crate) fn boundaries(maps: &[Map]) -> Table {
+pub(crate) fn boundaries(sequences: &[(f64, Vec<Sequence>)]) -> Table {
     let mut columns = vec![("tolerance".to_owned(), Column::Text)];
     columns.extend(LINES.map(|ratio| {
         let title = match ratio {
@@ -71,16 +61,16 @@ pub(crate) fn boundaries(maps: &[Map]) -> Table {
         };
         (title, Column::Boundaries)
     }));
-    let rows = maps.iter().map(|map| {
-        let mut row = vec![format!("{:e}", map.tolerance)];
-        row.extend(map.lines.iter().map(|line| sequence(line)));
+    let rows = sequences.iter().map(|(tolerance, lines)| {
+        let mut row = vec![format!("{tolerance:e}")];
+        row.extend(lines.iter().map(|line| told(line)));
         row
     });
     Table { name: "boundaries", columns, rows: rows.collect() }
 }
 
 /// "`smooth` 0.001 `series` 60 `uniform`"
-fn sequence(line: &[(f64, Method)]) -> String {
+fn told(line: &[(f64, Method)]) -> String {
     let named = |method: Method| format!("`{}`", method.name());
     let first = line.first().map(|(_, method)| named(*method));
     let later = line.iter().skip(1).map(|(from, method)| format!("{} {}", two_digits(*from), named(*method)));
@@ -91,6 +81,6 @@ fn sequence(line: &[(f64, Method)]) -> String {
 #[test]
 fn a_line_is_told_in_order_of_g() {
     let line = [(1e-4, Method::Smooth), (1.23e-3, Method::Series), (57.5, Method::Uniform)];
-    assert_eq!(sequence(&line), "`smooth` 1.2e-3 `series` 58 `uniform`");
+    assert_eq!(told(&line), "`smooth` 1.2e-3 `series` 58 `uniform`");
     assert_eq!(two_digits(20000.0), "2e4");
 }

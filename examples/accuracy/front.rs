@@ -157,6 +157,18 @@ fn exponential() -> f64 {
     median(timings) / DIRECTIONS as f64
 }
 
+/// What the times were taken on, as far as it says of itself.
+pub(crate) fn machine() -> String {
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));
+    format!(
+        "The times are those of one thread of a machine that calls itself {} ({}), where one exp() took {:.1} ns.\n",
+        model.unwrap_or("nothing"),
+        std::env::consts::ARCH,
+        1e9 * exponential()
+    )
+}
+
 /// Directions of that surface whose μ lies in a band, from a sequence that fills the hemisphere evenly.
 fn within(roughness: &RelativeRoughness, from: f64, to: f64) -> Directions {
     let candidates = (1..).map(|n| {

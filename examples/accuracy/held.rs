@@ -71,9 +71,14 @@ impl Page {
 
 #[test]
 fn errors_are_rounded_up_to_two_digits() {
-    for (error, shown) in
-        [(1.3e-9, "1.3e-9"), (1.301e-9, "1.4e-9"), (9.91e-3, "0.01"), (1.0, "1"), (0.0, "0"), (f64::INFINITY, "∞")]
-    {
+    for (error, shown) in [
+        (1.3e-9, "1.3e-9"),
+        (1.301e-9, "1.4e-9"),
+        (9.91e-3, "0.01"),
+        (1.0, "1"),
+        (0.0, "0"),
+        (f64::INFINITY, "∞"),
+    ] {
         assert_eq!(rounded_up(error), shown);
     }
     for exponent in -300..300 {

@@ -20,22 +20,20 @@ use std::path::{Path, PathBuf};
 /// The tables, in the page's order, with the pictures' data.
 struct Measured {
     plane: plane::Map,
-    choices: Vec<choice::Map>,
+    choices: Vec<(f64, Vec<choice::Sequence>)>,
     front: Vec<front::Band>,
 }
 
 impl Measured {
     /// Everything; the times only if `timed`.
     fn now(timed: bool) -> Self {
-        let plane = plane::Map::measured();
-        let choices = choice::TOLERANCES.map(choice::Map::measured).into();
-        Self { plane, choices, front: front::measured(timed) }
+        Self { plane: plane::Map::measured(), choices: choice::measured(), front: front::measured(timed) }
     }
 
     fn tables(&self) -> Vec<Table> {
         vec![
             self.plane.table(),
-            choice::shares(&self.choices),
+            choice::shares(&self.plane),
             choice::boundaries(&self.choices),
             front::table(&self.front),
         ]
@@ -43,7 +41,7 @@ impl Measured {
 
     fn draw(&self, folder: &Path) -> Result<(), Box<dyn Error>> {
         std::fs::write(folder.join("errors.svg"), draw::errors(&self.plane)?)?;
-        std::fs::write(folder.join("choices.svg"), draw::choices(&self.choices)?)?;
+        std::fs::write(folder.join("choices.svg"), draw::choices(&self.plane)?)?;
         std::fs::write(folder.join("front.svg"), draw::front(&self.front)?)?;
         Ok(())
     }
@@ -54,12 +52,15 @@ fn docs() -> PathBuf {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let measured = Measured::now(true);
+    // The times are those of one thread.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let measured = pool.install(|| Measured::now(true));
     let mut page = Page::read(&docs().join("accuracy.md"))?;
     for table in measured.tables() {
         println!("{table}");
-        page.replace(&table)?;
+        page.replace(table.name, &table.to_string())?;
     }
+    page.replace("machine", &front::machine())?;
     page.write()?;
     measured.draw(&docs().join("accuracy"))
 }

@@ -73,9 +73,9 @@ impl Page {
         Ok(find("begin")?.1..find("end")?.0)
     }
 
-    pub(crate) fn replace(&mut self, table: &Table) -> Result<(), String> {
-        let range = self.range(table.name)?;
-        self.text.replace_range(range, &table.to_string());
+    pub(crate) fn replace(&mut self, name: &str, text: &str) -> Result<(), String> {
+        let range = self.range(name)?;
+        self.text.replace_range(range, text);
         Ok(())
     }
 

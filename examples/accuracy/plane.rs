@@ -1,7 +1,9 @@
-//! The true error of each method over the (g, x) plane, against the series summed to convergence.
+//! The true error of each method over the (g, x) plane, against the series summed to convergence, and what `auto`
+//! takes there.
 
 use crate::page::{Column, Table, rounded_up};
 use crate::scenes::{Probe, accuracy, finest};
+use reflectance::reflectance::estimate::Estimate;
 use reflectance::reflectance::numeric::lobe_series::{self, Method};
 use reflectance::reflectance::quantity::Tolerance;
 
@@ -10,6 +12,8 @@ pub(crate) const FIRST: i32 = -4;
 pub(crate) const LAST: i32 = 8;
 /// Cells of a decade.
 const PER_DECADE: i32 = 8;
+/// Tolerances of `auto`: those of the service's trade, and the finest that the whole plane can keep but for rounding.
+pub(crate) const TOLERANCES: [f64; 6] = [1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13];
 /// Below, a radiance soon underflows: that part of the plane is left out.
 const SMALLEST_S: f64 = -300.0;
 
@@ -18,33 +22,43 @@ fn middle(index: usize) -> f64 {
     10f64.powf(f64::from(FIRST) + (index as f64 + 0.5) / f64::from(PER_DECADE))
 }
 
-/// One number for each cell.
+/// Something for each cell, except where the plane is left out; rows by x, columns by g.
 pub(crate) type Grid<T> = Vec<Vec<Option<T>>>;
 
 /// Cells along an axis.
 pub(crate) const CELLS: usize = ((LAST - FIRST) * PER_DECADE) as usize;
 
-/// Evaluates something wherever the plane is not left out; rows by x, columns by g.
-pub(crate) fn grid<T>(mut of: impl FnMut(f64, f64) -> T) -> Grid<T> {
-    (0..CELLS)
-        .map(|row| {
-            let x = middle(row);
-            (0..CELLS)
-                .map(|column| {
-                    let g = middle(column);
-                    let s = lobe_series::evaluate(Method::Series, g, x);
-                    (s.estimate.value.log10() >= SMALLEST_S).then(|| of(g, x))
-                })
-                .collect()
-        })
-        .collect()
+/// A point of the plane with the converged S there, and the lobe of which it is a part.
+struct Point {
+    g: f64,
+    x: f64,
+    exact: Estimate,
+    total: f64,
+    total_bound: f64,
 }
 
-/// log10 of the error made and of the bound stated.
+impl Point {
+    fn at(probe: &Probe, row: usize, column: usize) -> Option<Self> {
+        let (x, g) = (middle(row), middle(column));
+        let exact = lobe_series::evaluate(Method::Series, g, x).estimate;
+        if exact.value.log10() < SMALLEST_S {
+            return None;
+        }
+        let lobe = probe.evaluate(g, x, accuracy(Method::Series, finest()));
+        Some(Self { g, x, exact, total: lobe.total[0], total_bound: lobe.relative_error_bound[0] })
+    }
+}
+
+fn map<T, U>(grid: &Grid<T>, of: impl Fn(&T) -> U) -> Grid<U> {
+    grid.iter().map(|row| row.iter().map(|cell| cell.as_ref().map(&of)).collect()).collect()
+}
+
+/// log10 of the error made and of the bound stated, and the method that evaluated.
 #[derive(Clone, Copy)]
 pub(crate) struct Off {
     pub(crate) error: f64,
     bound: f64,
+    pub(crate) method: Method,
 }
 
 /// One way to evaluate S, over the plane.
@@ -62,16 +76,26 @@ pub(crate) struct Map {
 
 impl Map {
     pub(crate) fn measured() -> Self {
-        let named = [Method::Series, Method::Uniform, Method::Paper, Method::Smooth, Method::Rough];
-        let named =
-            named.map(|method| Layer { method, tolerance: None, cells: grid(|g, x| off(method, g, x)) });
         let probe = Probe::new();
-        let auto = Tolerance::STEPS.map(|tolerance| {
-            let tolerance = tolerance.get();
-            let cells = grid(|g, x| off_auto(&probe, g, x, tolerance));
-            Layer { method: Method::Auto, tolerance: Some(tolerance), cells }
+        let points: Grid<Point> =
+            (0..CELLS).map(|row| (0..CELLS).map(|column| Point::at(&probe, row, column)).collect()).collect();
+        let named = [Method::Series, Method::Uniform, Method::Paper, Method::Smooth, Method::Rough];
+        let named = named.map(|method| Layer {
+            method,
+            tolerance: None,
+            cells: map(&points, |point| off(method, point)),
+        });
+        let auto = TOLERANCES.map(|tolerance| Layer {
+            method: Method::Auto,
+            tolerance: Some(tolerance),
+            cells: map(&points, |point| off_auto(&probe, point, tolerance)),
         });
         Self { layers: named.into_iter().chain(auto).collect() }
+    }
+
+    /// What `auto` does, from the coarsest tolerance to the finest.
+    pub(crate) fn auto(&self) -> impl Iterator<Item = (f64, &Layer)> {
+        self.layers.iter().filter_map(|layer| layer.tolerance.map(|tolerance| (tolerance, layer)))
     }
 
     /// `auto` at this tolerance, or a named method.
@@ -120,29 +144,29 @@ fn idleness(cells: &[Off]) -> String {
 }
 
 /// Of a named method. No error below the reference's own bound can be told.
-fn off(method: Method, g: f64, x: f64) -> Off {
-    let exact = lobe_series::evaluate(Method::Series, g, x).estimate;
-    let by = lobe_series::evaluate(method, g, x).estimate;
+fn off(method: Method, Point { g, x, exact, .. }: &Point) -> Off {
+    let by = lobe_series::evaluate(method, *g, *x).estimate;
     let error = (by.value.distance(exact.value) / exact.value).log10();
     let bound = (by.error / by.least).log10();
-    Off { error: error.max(exact.relative_error().log10()), bound }
+    Off { error: error.max(exact.relative_error().log10()), bound, method }
 }
 
 /// Of `auto`, as it answers a request to this tolerance.
-fn off_auto(probe: &Probe, g: f64, x: f64, tolerance: f64) -> Off {
-    let exact = probe.evaluate(g, x, accuracy(Method::Series, finest()));
-    let by = probe.evaluate(g, x, accuracy(Method::Auto, tolerance));
-    let error = ((by.total[0] - exact.total[0]) / exact.total[0]).abs();
-    Off { error: error.max(exact.relative_error_bound[0]).log10(), bound: by.relative_error_bound[0].log10() }
+fn off_auto(probe: &Probe, Point { g, x, total, total_bound, .. }: &Point, tolerance: f64) -> Off {
+    let (by, method) = probe.auto(*g, *x, tolerance);
+    let error = ((by.total[0] - total) / total).abs();
+    Off { error: error.max(*total_bound).log10(), bound: by.relative_error_bound[0].log10(), method }
 }
 
 #[cfg(test)]
 #[test]
 fn the_smooth_form_misses_the_second_term() {
-    // S = g e^{-g-x} (1 + g e^{x/2}/4 + …)
-    let measured = off(Method::Smooth, 1e-3, 1e-3).error;
-    assert!((measured - (1e-3f64 / 4.0).log10()).abs() < 1e-2, "{measured}");
     let probe = Probe::new();
-    let finest = off_auto(&probe, 30.0, 2.0, finest()).error;
+    let low = Point::at(&probe, 8, 8).unwrap();
+    // S = g e^{-g-x} (1 + g e^{x/2}/4 + …)
+    let expected = (low.g * (0.5 * low.x).exp() / 4.0).log10();
+    let measured = off(Method::Smooth, &low).error;
+    assert!((measured - expected).abs() < 1e-2, "{measured} {expected}");
+    let finest = off_auto(&probe, &low, finest()).error;
     assert!((-14.5..-13.0).contains(&finest), "{finest}");
 }

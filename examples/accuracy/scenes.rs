@@ -85,12 +85,14 @@ impl Probe {
         evaluate(&lobe(roughness, accuracy), &self.directions, Quantity::Radiance, output)
     }
 
-    /// What `auto` takes there.
-    pub(crate) fn choice(&self, g: f64, x: f64, tolerance: f64) -> Method {
-        match self.evaluate(g, x, accuracy(Method::Auto, tolerance)).method.as_deref() {
+    /// The same by `auto`, with what it takes.
+    pub(crate) fn auto(&self, g: f64, x: f64, tolerance: f64) -> (Evaluation, Method) {
+        let evaluation = self.evaluate(g, x, accuracy(Method::Auto, tolerance));
+        let method = match evaluation.method.as_deref() {
             Some([EvaluatedBy::Lobe(method)]) => *method,
             other => panic!("one direction with a lobe was evaluated by {other:?}"),
-        }
+        };
+        (evaluation, method)
     }
 }
 

@@ -43,7 +43,8 @@ fn marker(area: &Area<'_>, at: (i32, i32), method: Method) -> Drawn {
         Method::Paper => area.draw(&Cross::new(at, 5, colour(method).stroke_width(3)))?,
         Method::Uniform => area.draw(&TriangleMarker::new(at, 7, style))?,
         Method::Smooth => {
-            area.draw(&Polygon::new([(x - 6, y), (x, y - 6), (x + 6, y), (x, y + 6)], style))?,
+            let corners = [(x - 6, y), (x, y - 6), (x + 6, y), (x, y + 6)];
+            area.draw(&Polygon::new(corners, style))?;
         }
         Method::Rough => area.draw(&Rectangle::new([(x - 7, y - 3), (x + 7, y + 3)], style))?,
     }
@@ -80,9 +81,18 @@ fn panel(area: &Area<'_>, band: &Band) -> Drawn {
     let steps = best.iter().zip(best.iter().skip(1)).flat_map(|(a, b)| [*a, (b.0, a.1), *b]);
     chart.draw_series(LineSeries::new(steps, front_style()))?;
     let (left, top) = area.get_base_pixel();
+    let mut labelled: Option<(i32, i32)> = None;
     for point in &band.points {
         let (x, y) = chart.backend_coord(&place(point));
-        marker(area, (x - left, y - top), point.accuracy.method)?;
+        let at = (x - left, y - top);
+        marker(area, at, point.accuracy.method)?;
+        // Tolerances that end at one place share the label of the first.
+        let crowded = |(x, y): (i32, i32)| (x - at.0).abs() < 40 && (y - at.1).abs() < 14;
+        if point.accuracy.method == Method::Auto && !labelled.is_some_and(crowded) {
+            let tolerance = power_of_ten(point.accuracy.relative_tolerance.get().log10());
+            area.draw(&Text::new(tolerance, (at.0 + 9, at.1 - 9), beside(13)))?;
+            labelled = Some(at);
+        }
     }
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! Maps over the (g, x) plane.
 
 use super::style::{Area, Drawn, beside, boxes, colour, font, power_of_ten};
-use crate::choice;
 use crate::plane::{self, CELLS, FIRST, Grid, LAST};
 use plotters::prelude::*;
 use reflectance::reflectance::numeric::lobe_series::Method;
@@ -53,17 +52,21 @@ fn class(log_error: f64) -> usize {
 }
 
 /// What `auto` takes.
-pub(crate) fn choices(maps: &[choice::Map]) -> Result<String, Box<dyn Error>> {
-    let shown = maps.iter().filter(|map| [1e-3, 1e-9, 1e-13].contains(&map.tolerance));
+pub(crate) fn choices(map: &plane::Map) -> Result<String, Box<dyn Error>> {
+    let shown: Vec<_> = map.auto().filter(|(tolerance, _)| [1e-3, 1e-9, 1e-13].contains(tolerance)).collect();
+    let taken = |method: Method| {
+        let mut cells = shown.iter().flat_map(|(_, layer)| layer.cells.iter().flatten().flatten());
+        cells.any(|off| off.method == method)
+    };
     picture((1220, 490), |root| {
         let (top, rest) = root.split_vertically(70);
         top.draw(&Text::new("auto takes", (20, 24), beside(17)))?;
-        let methods = Method::ALL.into_iter().filter(|&method| method != Method::Auto);
+        let methods = Method::ALL.into_iter().filter(|&method| taken(method));
         let entries: Vec<_> = methods.map(|method| (colour(method), method.name().to_owned())).collect();
         boxes(&top, (140, 24), &entries, 130)?;
-        for (map, area) in shown.zip(rest.split_evenly((1, 3))) {
-            let title = format!("tolerance {}", power_of_ten(map.tolerance.log10()));
-            panel(&area, &title, &map.cells, |&method| colour(method))?;
+        for ((tolerance, layer), area) in shown.iter().zip(rest.split_evenly((1, 3))) {
+            let title = format!("tolerance {}", power_of_ten(tolerance.log10()));
+            panel(&area, &title, &layer.cells, |off| colour(off.method))?;
         }
         Ok(())
     })
