@@ -1,69 +1,76 @@
 //! The points of a batch that need the saddle: its position by Lambert's W, then R by a polynomial
 //! patch where the sum equals its integral, the sum itself where few terms matter.
 
-use super::direct;
-use super::lanes::{Batch, Form, Forms, LANES, Lanes, Places};
+use super::lanes::{Batch, Form, LANES, Lanes, Places};
 use super::patches::{Patch, Tier};
-use super::Method;
+use super::{Method, direct};
 use crate::reflectance::numeric::elementary::{exp, ln_1p_roughly};
 
 /// The saddles of a batch's points.
 struct Saddles {
+    mu: Lanes,
     /// 1/μ
     inverse_mu: Lanes,
-    mu: Lanes,
     /// 1/w
     t: Lanes,
-    form: Forms,
+    /// How many of a tier's patches begin below μ; 0 where none serves.
+    patch: Lanes,
 }
 
-/// Evaluates S at some of the points.
+/// Points whose accumulators stay in registers.
+const BLOCK: usize = 32;
+
+/// Evaluates S at the points of [`Method::Uniform`], of which it may make points of [`Method::Series`], or of
+/// [`Method::Auto`] beyond the domain; what it leaves at the other points says nothing.
 #[inline(always)]
-pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], batch: &mut Batch) {
-    let (mut g_there, mut x_there) = ([0.0; LANES], [0.0; LANES]);
-    let (g, x) = (places.gather(g, &mut g_there), places.gather(x, &mut x_there));
-    let mut saddles =
-        Saddles { inverse_mu: [0.0; LANES], mu: [0.0; LANES], t: [0.0; LANES], form: Forms::new() };
-    for (place, (&g, &x)) in g.iter().zip(x).enumerate() {
-        let (mu, t, form) = leading_term(g, x);
+pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
+    let count = g.len().min(x.len()).min(LANES);
+    let zero = [0.0; LANES];
+    let mut saddles = Saddles { mu: zero, inverse_mu: zero, t: zero, patch: zero };
+    for place in 0..count {
+        let (mu, t, form) = leading_term(g[place], x[place]);
         saddles.mu[place] = mu;
         saddles.inverse_mu[place] = 1.0 / mu;
         saddles.t[place] = t;
-        saddles.form.set(place, &form);
+        batch.set(place, &form);
     }
+    for patch in tier.patches {
+        for place in 0..count {
+            saddles.patch[place] += if saddles.mu[place] >= patch.mu_from { 1.0 } else { 0.0 };
+        }
+    }
+    for place in 0..count {
+        let serves = saddles.mu[place] * saddles.t[place] >= tier.variance_from;
+        saddles.patch[place] = if serves { saddles.patch[place] } else { 0.0 };
+    }
+    let asked = |batch: &Batch, place: usize| batch.method[place] == Method::Uniform;
     let mut few = Places::none();
-    let mut patched = [const { Places::none() }; MOST_PATCHES];
-    for place in 0..g.len() {
-        let mu = saddles.mu[place];
-        let number = tier.patches.iter().filter(|patch| mu >= patch.mu_from).count();
-        if number == 0 || mu * saddles.t[place] < tier.variance_from {
+    for place in 0..count {
+        if saddles.patch[place] == 0.0 && asked(batch, place) {
             few.push(place);
-        } else {
-            patched[number - 1].push(place);
+            batch.method[place] = Method::Series;
         }
     }
-    for (patch, of_patch) in tier.patches.iter().zip(&patched) {
-        if of_patch.count > 0 {
-            correct(patch, of_patch, &mut saddles);
+    for (patch, number) in tier.patches.iter().zip(1u8..) {
+        let mut places = Places::none();
+        for place in 0..count {
+            if saddles.patch[place] == f64::from(number) && asked(batch, place) {
+                places.push(place);
+            }
+        }
+        for places in places.all().chunks(BLOCK) {
+            correct(patch, places, &saddles, batch);
         }
     }
-    if few.count > 0 {
-        direct::evaluate(tier, &few, g, x, &saddles.mu, &mut saddles.form);
-    }
-    saddles.form.scatter(places, Method::Uniform, batch);
-    for &place in few.all() {
-        batch.method[usize::from(places.all()[usize::from(place)])] = Method::Series;
-    }
-    for (place, &there) in places.all().iter().enumerate() {
-        // The exponent's own rounding, and with it the conditions, are bounded below this size only.
-        if !(saddles.form.exponent[place].abs() < 1e15) {
-            batch.method[usize::from(there)] = Method::Auto;
+    direct::evaluate(tier, &few, g, x, &saddles.mu, batch);
+    for place in 0..count {
+        // The rounding of the exponent, and with it the conditions, are bounded below this size only.
+        let is_bounded = batch.exponent[place].abs() < 1e15;
+        if !is_bounded {
+            batch.method[place] = Method::Auto;
         }
     }
 }
-
-/// Patches of one tier at most.
-pub(super) const MOST_PATCHES: usize = 10;
 
 /// μ, 1/w and e^ψ/(μ √w) with the conditions of S.
 #[inline(always)]
@@ -103,34 +110,30 @@ fn lambert_w(z: f64) -> f64 {
 
 /// Multiplies by R.
 #[inline(always)]
-fn correct(patch: &Patch, places: &Places, saddles: &mut Saddles) {
-    /// Points whose accumulators stay in registers.
-    const BLOCK: usize = 32;
-    for places in places.all().chunks(BLOCK) {
-        let (mut p, mut q) = ([0.0; BLOCK], [0.0; BLOCK]);
-        for ((p, q), &place) in p.iter_mut().zip(&mut q).zip(places) {
-            *p = saddles.inverse_mu[usize::from(place)];
-            *q = saddles.t[usize::from(place)];
-        }
-        for (p, q) in p.iter_mut().zip(&mut q) {
-            *p = *p * patch.p_scale + patch.p_shift;
-            *q = *q * patch.q_scale + patch.q_shift;
-        }
-        let mut r = [0.0; BLOCK];
-        for row in patch.rows.iter().rev() {
-            let mut of_row = [0.0; BLOCK];
-            for &coefficient in row.iter().rev() {
-                for (sum, &q) in of_row.iter_mut().zip(&q) {
-                    *sum = *sum * q + coefficient;
-                }
-            }
-            for ((r, &p), &of_row) in r.iter_mut().zip(&p).zip(&of_row) {
-                *r = *r * p + of_row;
+fn correct(patch: &Patch, places: &[u8], saddles: &Saddles, batch: &mut Batch) {
+    let (mut p, mut q) = ([0.0; BLOCK], [0.0; BLOCK]);
+    for ((p, q), &place) in p.iter_mut().zip(&mut q).zip(places) {
+        *p = saddles.inverse_mu[usize::from(place)];
+        *q = saddles.t[usize::from(place)];
+    }
+    for (p, q) in p.iter_mut().zip(&mut q) {
+        *p = *p * patch.p_scale + patch.p_shift;
+        *q = *q * patch.q_scale + patch.q_shift;
+    }
+    let mut r = [0.0; BLOCK];
+    for row in patch.rows.iter().rev() {
+        let mut of_row = [0.0; BLOCK];
+        for &coefficient in row.iter().rev() {
+            for (sum, &q) in of_row.iter_mut().zip(&q) {
+                *sum = *sum * q + coefficient;
             }
         }
-        for (&r, &place) in r.iter().zip(places) {
-            saddles.form.significand[usize::from(place)] *= r;
-            saddles.form.truncation[usize::from(place)] = patch.error;
+        for ((r, &p), &of_row) in r.iter_mut().zip(&p).zip(&of_row) {
+            *r = *r * p + of_row;
         }
+    }
+    for (&r, &place) in r.iter().zip(places) {
+        batch.significand[usize::from(place)] *= r;
+        batch.truncation[usize::from(place)] = patch.error;
     }
 }
