@@ -78,21 +78,45 @@ fn panel(area: &Area<'_>, band: &Band) -> Drawn {
     let mut best: Vec<(f64, f64)> = band.points.iter().filter(|point| point.on_front).map(place).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Until the next point is reached, nothing better than this one is to be had.
+    let ends = (best.first().map(|a| (a.0, ERRORS.1)), best.last().map(|b| (TIMES.1, b.1)));
     let steps = best.iter().zip(best.iter().skip(1)).flat_map(|(a, b)| [*a, (b.0, a.1), *b]);
+    let steps = ends.0.into_iter().chain(best.first().copied()).chain(steps).chain(ends.1);
     chart.draw_series(LineSeries::new(steps, front_style()))?;
     let (left, top) = area.get_base_pixel();
-    let mut labelled: Option<(i32, i32)> = None;
+    let mut labels: Vec<Label> = Vec::new();
     for point in &band.points {
         let (x, y) = chart.backend_coord(&place(point));
         let at = (x - left, y - top);
         marker(area, at, point.accuracy.method)?;
-        // Tolerances that end at one place share the label of the first.
-        let crowded = |(x, y): (i32, i32)| (x - at.0).abs() < 40 && (y - at.1).abs() < 14;
-        if point.accuracy.method == Method::Auto && !labelled.is_some_and(crowded) {
-            let tolerance = power_of_ten(point.accuracy.relative_tolerance.get().log10());
-            area.draw(&Text::new(tolerance, (at.0 + 9, at.1 - 9), beside(13)))?;
-            labelled = Some(at);
+        if point.accuracy.method == Method::Auto {
+            let tolerance = point.accuracy.relative_tolerance.get();
+            match labels.last_mut().filter(|last| last.is_close(at)) {
+                Some(last) => last.to = tolerance,
+                None => labels.push(Label { at, from: tolerance, to: tolerance }),
+            }
         }
     }
+    for label in labels {
+        area.draw(&Text::new(label.text(), (label.at.0 + 9, label.at.1 - 10), beside(13)))?;
+    }
     Ok(())
+}
+
+/// Tolerances of `auto` that end at one place.
+struct Label {
+    at: (i32, i32),
+    from: f64,
+    to: f64,
+}
+
+impl Label {
+    fn is_close(&self, (x, y): (i32, i32)) -> bool {
+        (self.at.0 - x).abs() < 40 && (self.at.1 - y).abs() < 14
+    }
+
+    /// "10⁻¹" or "10⁻¹…10⁻¹²"
+    fn text(&self) -> String {
+        let [from, to] = [self.from, self.to].map(|tolerance| power_of_ten(tolerance.log10()));
+        if self.from == self.to { from } else { format!("{from}…{to}") }
+    }
 }
