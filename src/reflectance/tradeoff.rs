@@ -11,9 +11,9 @@ use core::time::Duration;
 
 /// Directions that are measured; of more, as many are taken at even distances, the first and the last among them.
 pub const MAX_DIRECTIONS: usize = 64;
-/// Time after which no further repeat is begun. What comes before the repeats, one evaluation by each way, is bounded
-/// by the number of directions.
-pub const BUDGET: Duration = Duration::from_millis(50);
+/// Time after which no further repeat is begun, so that with what follows it is all done in 50 ms. What comes before
+/// the repeats, one evaluation by each way, is bounded by the number of directions.
+pub const BUDGET: Duration = Duration::from_millis(45);
 /// Timings of each way that are enough for a median.
 const MAX_REPEATS: usize = 31;
 /// A timing evaluates as often as fits in here, at least once: a thousand ticks of a coarse clock.

@@ -133,7 +133,7 @@ impl TradeoffAnswer {
 ///
 /// Takes a request of `/v1/radiance`, evaluates it by every method, and answers each one's true error against the
 /// converged series, its stated bound and the time it takes here and now. Of more than 64 directions 64 are measured.
-/// No repeat is begun after 50 ms; measurements wait for each other.
+/// A measurement takes 50 ms at most, and waits for those before it.
 #[utoipa::path(
     post,
     path = "/v1/tradeoff",
