@@ -2,84 +2,138 @@
 //! patch where the sum equals its integral, the sum itself where few terms matter.
 
 use super::lanes::{Batch, Form, LANES, Lanes, Places};
-use super::patches::{Patch, Tier};
+use super::patches::{MOST_PATCHES, Patch, Tier};
 use super::{Method, direct};
 use crate::reflectance::numeric::elementary::{exp, ln_1p_roughly};
-
-/// The saddles of a batch's points.
-struct Saddles {
-    mu: Lanes,
-    /// 1/μ
-    inverse_mu: Lanes,
-    /// 1/w
-    t: Lanes,
-    /// How many of a tier's patches begin below μ; 0 where none serves.
-    patch: Lanes,
-}
-
-/// Points whose accumulators stay in registers.
-const BLOCK: usize = 32;
+use core::ops::Range;
 
 /// Evaluates S at the points of [`Method::Uniform`], of which it may make points of [`Method::Series`], or of
 /// [`Method::Auto`] beyond the domain; what it leaves at the other points says nothing.
 #[inline(always)]
 pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
     let count = g.len().min(x.len()).min(LANES);
-    let zero = [0.0; LANES];
-    let mut saddles = Saddles { mu: zero, inverse_mu: zero, t: zero, patch: zero };
+    let (mut mu, mut w) = ([0.0; LANES], [0.0; LANES]);
     for place in 0..count {
-        let (mu, t, form) = leading_term(g[place], x[place]);
-        saddles.mu[place] = mu;
-        saddles.inverse_mu[place] = 1.0 / mu;
-        saddles.t[place] = t;
+        let (at_mu, at_w, form) = leading_term(g[place], x[place]);
+        mu[place] = at_mu;
+        w[place] = at_w;
         batch.set(place, &form);
     }
-    for patch in tier.patches {
-        for place in 0..count {
-            saddles.patch[place] += if saddles.mu[place] >= patch.mu_from { 1.0 } else { 0.0 };
+    if let Some(patch) = common_patch(tier, &mu[..count], &w[..count], &batch.exponent[..count]) {
+        for start in (0..count).step_by(2 * BLOCK) {
+            let end = count.min(start + 2 * BLOCK);
+            correct_run(patch, start..end, &mu, &w, batch);
         }
+        return;
     }
-    for place in 0..count {
-        let serves = saddles.mu[place] * saddles.t[place] >= tier.variance_from;
-        saddles.patch[place] = if serves { saddles.patch[place] } else { 0.0 };
-    }
-    let asked = |batch: &Batch, place: usize| batch.method[place] == Method::Uniform;
     let mut few = Places::none();
+    let mut patched = Sorted::new();
     for place in 0..count {
-        if saddles.patch[place] == 0.0 && asked(batch, place) {
-            few.push(place);
-            batch.method[place] = Method::Series;
-        }
-    }
-    for (patch, number) in tier.patches.iter().zip(1u8..) {
-        let mut places = Places::none();
-        for place in 0..count {
-            if saddles.patch[place] == f64::from(number) && asked(batch, place) {
-                places.push(place);
+        match tier.number_at(mu[place], w[place]) {
+            _ if !is_bounded(batch.exponent[place]) => batch.method[place] = Method::Auto,
+            Some(number) => patched.add(place, number),
+            None => {
+                few.push(place);
+                batch.method[place] = Method::Series;
             }
         }
-        for places in places.all().chunks(BLOCK) {
-            correct(patch, places, &saddles, batch);
+    }
+    let places = patched.places();
+    for (number, range) in patched.ranges() {
+        let Some(patch) = tier.patch(number) else { continue };
+        for places in places[range].chunks(2 * BLOCK) {
+            if places.len() > BLOCK {
+                correct::<{ 2 * BLOCK }>(patch, places, &mu, &w, batch);
+            } else {
+                correct::<BLOCK>(patch, places, &mu, &w, batch);
+            }
         }
     }
-    direct::evaluate(tier, &few, g, x, &saddles.mu, batch);
-    for place in 0..count {
-        // The rounding of the exponent, and with it the conditions, are bounded below this size only.
-        let is_bounded = batch.exponent[place].abs() < 1e15;
-        if !is_bounded {
-            batch.method[place] = Method::Auto;
+    direct::evaluate(tier, &few, g, x, &mu, batch);
+}
+
+/// The rounding of the exponent, and with it the conditions, are bounded below this size only.
+#[inline(always)]
+fn is_bounded(exponent: f64) -> bool {
+    exponent.abs() < 1e15
+}
+
+/// The patch that serves at all of the points, if one does: patches are convex in μ and w.
+#[inline(always)]
+fn common_patch(tier: &Tier, mu: &[f64], w: &[f64], exponent: &[f64]) -> Option<&'static Patch> {
+    let (mut least, mut most) = ([f64::MAX; 2], [0.0f64; 2]);
+    let mut bounded = true;
+    for ((&mu, &w), &exponent) in mu.iter().zip(w).zip(exponent) {
+        least = [if mu < least[0] { mu } else { least[0] }, if w < least[1] { w } else { least[1] }];
+        most = [if mu > most[0] { mu } else { most[0] }, if w > most[1] { w } else { most[1] }];
+        bounded &= is_bounded(exponent);
+    }
+    let number = tier.number_at(least[0], least[1]).filter(|_| bounded)?;
+    let others = [(least[0], most[1]), (most[0], least[1]), (most[0], most[1])];
+    let common = others.into_iter().all(|(mu, w)| tier.number_at(mu, w) == Some(number));
+    if common { tier.patch(number) } else { None }
+}
+
+/// The least number of points that a patch is evaluated at together. Twice as many still have their
+/// accumulators in registers.
+const BLOCK: usize = 16;
+
+/// Places by the number of their patch.
+struct Sorted {
+    numbers: [u8; LANES],
+    counts: [usize; MOST_PATCHES],
+}
+
+impl Sorted {
+    const fn new() -> Self {
+        Self { numbers: [u8::MAX; LANES], counts: [0; MOST_PATCHES] }
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "below MOST_PATCHES")]
+    fn add(&mut self, place: usize, number: usize) {
+        self.numbers[place] = number as u8;
+        self.counts[number] += 1;
+    }
+
+    /// Those of each patch that has some.
+    #[inline(always)]
+    fn ranges(&self) -> impl Iterator<Item = (usize, Range<usize>)> + '_ {
+        let ranges = self.counts.iter().scan(0, |end, &count| {
+            let start = *end;
+            *end += count;
+            Some(start..*end)
+        });
+        ranges.enumerate().filter(|(_, range)| !range.is_empty())
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "below LANES")]
+    fn places(&self) -> [u8; LANES] {
+        let mut next = [0; MOST_PATCHES];
+        for (number, range) in self.ranges() {
+            next[number] = range.start;
         }
+        let mut places = [0; LANES];
+        for (place, &number) in self.numbers.iter().enumerate() {
+            if let Some(next) = next.get_mut(usize::from(number)) {
+                places[*next] = place as u8;
+                *next += 1;
+            }
+        }
+        places
     }
 }
 
-/// μ, 1/w and e^ψ/(μ √w) with the conditions of S.
+/// μ, w and e^ψ/(μ √w) with the conditions of S.
 #[inline(always)]
 fn leading_term(g: f64, x: f64) -> (f64, f64, Form) {
     let u = 0.5 * lambert_w(2.0 * (x / g) / g);
     let growth = exp(u);
     let mu = g * growth.value();
     let less_one = growth.minus_one();
-    let t = 1.0 / (1.0 + 2.0 * u);
+    let w = 1.0 + 2.0 * u;
+    let t = 1.0 / w;
     // ψ = g (e^u (1 − u) − 1) − x/μ is stationary in u: what W lacks in digits enters squared.
     let steepness = x / mu;
     let psi = exp(g * (less_one * (1.0 - u) - u) - steepness);
@@ -90,7 +144,7 @@ fn leading_term(g: f64, x: f64) -> (f64, f64, Form) {
         condition_g: (g * less_one - t + 2.0 * u * (t * t)).abs(),
         condition_x: steepness + u * t + u * (t * t),
     };
-    (mu, t, form)
+    (mu, w, form)
 }
 
 /// W₀(z) for 0 ≤ z ≤ 1e250 to 1e-10, relative.
@@ -108,21 +162,45 @@ fn lambert_w(z: f64) -> f64 {
     w
 }
 
-/// Multiplies by R.
+/// Multiplies by R at up to `COUNT` places.
 #[inline(always)]
-fn correct(patch: &Patch, places: &[u8], saddles: &Saddles, batch: &mut Batch) {
-    let (mut p, mut q) = ([0.0; BLOCK], [0.0; BLOCK]);
-    for ((p, q), &place) in p.iter_mut().zip(&mut q).zip(places) {
-        *p = saddles.inverse_mu[usize::from(place)];
-        *q = saddles.t[usize::from(place)];
+fn correct<const COUNT: usize>(patch: &Patch, places: &[u8], mu: &Lanes, w: &Lanes, batch: &mut Batch) {
+    let (mut mu_there, mut w_there) = ([1.0; COUNT], [1.0; COUNT]);
+    for ((mu_there, w_there), &place) in mu_there.iter_mut().zip(&mut w_there).zip(places) {
+        *mu_there = mu[usize::from(place)];
+        *w_there = w[usize::from(place)];
     }
-    for (p, q) in p.iter_mut().zip(&mut q) {
-        *p = *p * patch.p_scale + patch.p_shift;
-        *q = *q * patch.q_scale + patch.q_shift;
+    let r = correction(patch, &mu_there, &w_there);
+    for (&r, &place) in r.iter().zip(places) {
+        batch.significand[usize::from(place)] *= r;
+        batch.truncation[usize::from(place)] = patch.error;
     }
-    let mut r = [0.0; BLOCK];
+}
+
+/// Multiplies by R at a run of places.
+#[inline(always)]
+fn correct_run(patch: &Patch, run: Range<usize>, mu: &Lanes, w: &Lanes, batch: &mut Batch) {
+    let (mut mu_there, mut w_there) = ([1.0; 2 * BLOCK], [1.0; 2 * BLOCK]);
+    mu_there[..run.len()].copy_from_slice(&mu[run.clone()]);
+    w_there[..run.len()].copy_from_slice(&w[run.clone()]);
+    let r = correction(patch, &mu_there, &w_there);
+    for (significand, &r) in batch.significand[run.clone()].iter_mut().zip(&r) {
+        *significand *= r;
+    }
+    batch.truncation[run].fill(patch.error);
+}
+
+/// R at each point.
+#[inline(always)]
+fn correction<const COUNT: usize>(patch: &Patch, mu: &[f64; COUNT], w: &[f64; COUNT]) -> [f64; COUNT] {
+    let (mut p, mut q) = ([0.0; COUNT], [0.0; COUNT]);
+    for place in 0..COUNT {
+        p[place] = patch.p_scale / mu[place] + patch.p_shift;
+        q[place] = patch.q_scale / (w[place] + patch.w_shift) + patch.q_shift;
+    }
+    let mut r = [0.0; COUNT];
     for row in patch.rows.iter().rev() {
-        let mut of_row = [0.0; BLOCK];
+        let mut of_row = [0.0; COUNT];
         for &coefficient in row.iter().rev() {
             for (sum, &q) in of_row.iter_mut().zip(&q) {
                 *sum = *sum * q + coefficient;
@@ -132,8 +210,5 @@ fn correct(patch: &Patch, places: &[u8], saddles: &Saddles, batch: &mut Batch) {
             *r = *r * p + of_row;
         }
     }
-    for (&r, &place) in r.iter().zip(places) {
-        batch.significand[usize::from(place)] *= r;
-        batch.truncation[usize::from(place)] = patch.error;
-    }
+    r
 }

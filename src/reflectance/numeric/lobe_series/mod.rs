@@ -9,10 +9,12 @@
 //! the value with an exponent that cannot underflow, an error bound that holds, and what an error of
 //! g or x does to it.
 
+mod between;
 mod by_saddle;
 mod direct;
 pub mod lanes;
 pub mod patches;
+mod rough;
 mod saddle;
 mod series;
 mod single_term;
@@ -23,6 +25,7 @@ mod uniform;
 use super::EPSILON;
 use super::scaled::Scaled;
 use crate::reflectance::estimate::Estimate;
+pub use between::between;
 use saddle::Saddle;
 
 /// How the series is evaluated.
@@ -81,12 +84,6 @@ impl LobeSeries {
         Self { estimate: Estimate::within(value, log_error), condition_g, condition_x, method }
     }
 
-    /// A value that need not be near S, its own rounding e^{±`log_error`}, measured against S.
-    fn compared(value: Scaled, log_error: f64, s: &Self, method: Method) -> Self {
-        let error = value.distance(s.estimate.value) + s.estimate.error + value.spread(log_error);
-        Self { estimate: Estimate { value, error, least: s.estimate.least }, method, ..*s }
-    }
-
     /// The series without roughness: g = 0.
     fn zero(method: Method) -> Self {
         Self { estimate: Estimate::ZERO, condition_g: 1.0, condition_x: 0.0, method }
@@ -111,7 +108,7 @@ const NEGLIGIBLE_TRUNCATION: f64 = 4.0 * EPSILON;
 pub fn evaluate(method: Method, g: f64, x: f64) -> LobeSeries {
     if g == 0.0 {
         return match method {
-            Method::Rough => single_term::rough_without_roughness(x),
+            Method::Rough => rough::rough_without_roughness(x),
             Method::Auto => LobeSeries::zero(Method::Series),
             named => LobeSeries::zero(named),
         };
@@ -120,9 +117,9 @@ pub fn evaluate(method: Method, g: f64, x: f64) -> LobeSeries {
         Method::Auto => cheapest(g, x),
         Method::Series => series::converged(g, x, &Saddle::of(g, x)),
         Method::Paper => series::first_hundred(g, x),
-        Method::Uniform => uniform_as_asked(g, x),
+        Method::Uniform => uniform::at_its_best(g, x),
         Method::Smooth => single_term::smooth(g, x),
-        Method::Rough => single_term::rough(g, x),
+        Method::Rough => rough::rough(g, x),
     }
 }
 
@@ -136,15 +133,5 @@ fn cheapest(g: f64, x: f64) -> LobeSeries {
         uniform::order_four(g, x, &saddle)
     } else {
         series::converged(g, x, &saddle)
-    }
-}
-
-/// The saddle-point expansion wherever it is asked for.
-fn uniform_as_asked(g: f64, x: f64) -> LobeSeries {
-    let saddle = Saddle::of(g, x);
-    if uniform::serves(&saddle) {
-        uniform::order_four(g, x, &saddle)
-    } else {
-        uniform::beyond(g, x, &saddle, &series::converged(g, x, &saddle))
     }
 }
