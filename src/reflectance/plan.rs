@@ -81,7 +81,7 @@ impl Plan {
         let needed = scene.with_only(&evaluated);
         let count = directions.count();
         let indices = sample(count);
-        let sampled = directions.at(&indices);
+        let sampled = directions.select(&indices);
         // The components are decided for all directions.
         let mut named = needed.clone();
         named.parameters.components = Components::Named(evaluated.clone());
