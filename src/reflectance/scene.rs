@@ -1,6 +1,7 @@
 //! What a caller describes: surface, light, sensor, model. A [`Scene`] is checked as a whole when
 //! it is made; evaluating one cannot fail.
 
+use super::beckmann_spizzichino::RelativeRoughness;
 use super::degrees::SinCos;
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
@@ -161,6 +162,13 @@ impl Scene {
         Self { parameters, evaluated, facet_slope_radians }
     }
 
+    /// The same scene to another accuracy, which is no part of what can be wrong.
+    #[must_use]
+    pub fn with_accuracy(&self, accuracy: Accuracy) -> Self {
+        let parameters = SceneParameters { accuracy, ..self.parameters.clone() };
+        Self { parameters, ..self.clone() }
+    }
+
     /// The parameters it was made of.
     pub fn parameters(&self) -> &SceneParameters {
         &self.parameters
@@ -169,6 +177,11 @@ impl Scene {
     /// The components that an evaluation answers, in the model's order.
     pub fn evaluated(&self) -> &[Component] {
         &self.evaluated
+    }
+
+    /// The same scene with these of its components only.
+    pub(super) fn with_only(&self, evaluated: &[Component]) -> Self {
+        Self { evaluated: evaluated.to_vec(), ..self.clone() }
     }
 
     /// The parameters that were given and that no evaluated component reads, as clients know them.
@@ -188,6 +201,17 @@ impl Scene {
         .into_iter()
         .filter_map(|(name, unused)| unused.then_some(name))
         .collect()
+    }
+
+    /// σ_h/λ and T/λ, where the scene has heights and a wavelength.
+    pub(super) fn relative_roughness(&self) -> Option<RelativeRoughness> {
+        let surface = &self.parameters.surface;
+        let (height, wavelength) = surface.rms_height.zip(self.parameters.illumination.wavelength)?;
+        Some(RelativeRoughness {
+            height: height.get() / wavelength.get(),
+            // Only the height lobe reads it, and a scene with one has a correlation length.
+            correlation_length: surface.correlation_length.map_or(0.0, |t| t.get() / wavelength.get()),
+        })
     }
 
     /// The shadowing in force: the caller's, or the model's default.

@@ -12,3 +12,4 @@ mod protocol;
 mod radiance;
 mod readme;
 mod server;
+mod tradeoff;

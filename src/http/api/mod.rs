@@ -7,12 +7,14 @@ pub(super) mod examples;
 pub(super) mod figures;
 pub(super) mod health;
 pub(super) mod image_irradiance;
+pub(super) mod plan;
 pub(super) mod radiance;
 mod responses;
 pub(super) mod roughness;
 mod scene;
 mod spike;
 mod sweep;
+pub(super) mod tradeoff;
 
 /// The body of the request that the program suggests when it starts.
 pub(super) const FIRST_REQUEST: &str = examples::FIRST;

@@ -149,8 +149,7 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
     let mut special = 0.0;
     for place in 0..count {
         let (g, x) = (g[place], x[place]);
-        let ordinary = g >= 1e-140
-            && g <= 1e140
+        let ordinary = (1e-140..=1e140).contains(&g)
             && 2.0 * (x / g) / g <= 1e250
             && 0.25 * g > others
             && rough::bound(g, x) > others;
