@@ -71,21 +71,21 @@ pub(super) fn evaluate_required(
     let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
     let warnings = strain::warnings(scene, &needed, directions, &omitted);
-    let part = |first: usize| {
+    let part = |block: &mut Block, first: usize| {
         let end = count.min(first + PART);
         let mut answer = Answer::new(&needed, end - first, output, share);
-        Block::new().evaluate(&kernel, directions, first..end, &mut answer);
+        block.evaluate(&kernel, directions, first..end, &mut answer);
         answer
     };
     if count <= PART {
-        return part(0).finish(omitted, warnings);
+        return part(&mut Block::new(), 0).finish(omitted, warnings);
     }
     let mut whole = Answer::new(&needed, count, output, share);
     // A few parts a thread at a time, so that what is not yet in its place stays small.
     let at_once = 4 * PART * rayon::current_num_threads();
     for first in (0..count).step_by(at_once) {
         let starts: Vec<usize> = (first..count.min(first + at_once)).step_by(PART).collect();
-        let parts: Vec<Answer> = starts.into_par_iter().map(part).collect();
+        let parts: Vec<Answer> = starts.into_par_iter().map_init(Block::new, part).collect();
         for part in parts {
             whole.append(part);
         }
@@ -155,16 +155,24 @@ impl<'a> Answer<'a> {
     ) {
         self.columns.extend(values, bounds);
         let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
-        for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
-            let bound = bound + self.columns.omitted_share;
-            if bound > tolerance {
-                self.tolerance.add(first + place, bound);
-            }
-            if value == 0.0 {
-                self.underflow.add(first + place, 0.0);
-            }
-            self.count(by(place));
+        let (mut largest, mut least) = (0.0, f64::MAX);
+        for (&value, &bound) in values.iter().zip(bounds) {
+            largest = if bound > largest { bound } else { largest };
+            least = if value < least { value } else { least };
         }
+        let share = self.columns.omitted_share;
+        if largest + share > tolerance || least == 0.0 {
+            for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
+                let bound = bound + share;
+                if bound > tolerance {
+                    self.tolerance.add(first + place, bound);
+                }
+                if value == 0.0 {
+                    self.underflow.add(first + place, 0.0);
+                }
+            }
+        }
+        (0..values.len()).for_each(|place| self.count(by(place)));
     }
 
     /// The logarithms are asked for.

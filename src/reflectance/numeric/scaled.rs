@@ -112,6 +112,22 @@ impl Scaled {
         Self { significand: difference.significand.abs(), exponent: difference.exponent }
     }
 
+    /// The larger of two; `self` where they cannot be told apart.
+    #[must_use]
+    pub fn larger(self, other: Self) -> Self {
+        if self.is_below(other) { other } else { self }
+    }
+
+    /// The smaller of two; `self` where they cannot be told apart.
+    #[must_use]
+    pub fn smaller(self, other: Self) -> Self {
+        if other.is_below(self) { other } else { self }
+    }
+
+    fn is_below(self, other: Self) -> bool {
+        (self + Self { significand: -other.significand, exponent: other.exponent }).is_negative()
+    }
+
     /// `self^n` by repeated squaring; relative error at most n ε.
     #[must_use]
     pub fn powi(self, mut n: u32) -> Self {

@@ -6,13 +6,19 @@
 //! Gaussian sampled at 2.5 points a standard deviation or more, below e^{-120}): cost does not
 //! grow with g.
 
+use super::between::Enclosure;
 use super::saddle::Saddle;
 use super::uniform;
 use super::{LobeSeries, Method, rounding};
+use crate::reflectance::estimate::Estimate;
 use crate::reflectance::numeric::scaled::Scaled;
 
 /// Terms below this share of the sum end it; the rest of a side is then below 2^-54 of it.
 const NEGLIGIBLE: f64 = 1.0 / (1u64 << 58) as f64;
+/// The same for a sum that need only be near.
+const LARGER: f64 = 1.0 / 64.0;
+/// A share of the sum that may be missing without a change of its conditions by 1.
+const LITTLE: f64 = 1e-3;
 /// From this variance of the terms on, every h-th term is enough: the first terms are below e^{-60}.
 const STRIDED_FROM_VARIANCE: f64 = 64.0;
 /// From this μ w on, which is the size of the exponents, their rounding leaves the terms no digits to
@@ -43,11 +49,15 @@ impl Moments {
         self.inverse += t / m;
     }
 
-    /// The sum times the term it is relative to, and its conditions.
-    fn series(self, x: f64, reference: Scaled, method: Method) -> LobeSeries {
-        let condition_g = (self.first / self.sum).abs();
-        let condition_x = x * (self.inverse / self.sum);
-        LobeSeries::converged(reference * self.sum, 0.0, condition_g, condition_x, method)
+    /// |∂ ln/∂ ln g| and |∂ ln/∂ ln x| of the sum.
+    fn conditions(&self, x: f64) -> (f64, f64) {
+        ((self.first / self.sum).abs(), x * (self.inverse / self.sum))
+    }
+
+    /// The sum times the term it is relative to.
+    fn series(self, x: f64, reference: Scaled) -> LobeSeries {
+        let (condition_g, condition_x) = self.conditions(x);
+        LobeSeries::converged(reference * self.sum, 0.0, condition_g, condition_x, Method::Series)
     }
 }
 
@@ -59,30 +69,56 @@ pub(super) fn converged(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
         strided(g, x, saddle)
     } else {
         let centre = saddle.mu.round().max(1.0);
-        let moments = neighbours(g, x, centre, f64::INFINITY);
-        moments.series(x, term(centre, g, x), Method::Series)
+        let (moments, _) = neighbours(g, x, centre, f64::INFINITY, NEGLIGIBLE);
+        moments.series(x, term(centre, g, x))
     }
 }
 
+/// S between the sum of its larger terms and that sum with geometric tails.
+pub(super) fn enclose(g: f64, x: f64, saddle: &Saddle) -> Enclosure {
+    let centre = saddle.mu.round().max(1.0);
+    let (moments, rest) = neighbours(g, x, centre, f64::INFINITY, LARGER);
+    let (condition_g, condition_x) = moments.conditions(x);
+    let largest = term(centre, g, x);
+    let (low, high) = (largest * moments.sum, largest * (moments.sum + rest));
+    // The mean of m may move by as much as its tails weigh.
+    Enclosure::rounded(low, high, condition_g + 0.5, condition_x * (1.0 + rest / moments.sum))
+}
+
 /// The first 100 terms, each to full precision: what is missing is the rest of the series.
+///
+/// With the ratio of neighbours falling, the rest is at most t₁₀₁/(1 − ratio), and S itself is known
+/// from both sides.
 pub(super) fn first_hundred(g: f64, x: f64) -> LobeSeries {
     let saddle = Saddle::of(g, x);
     let centre = saddle.mu.round().clamp(1.0, PAPER_TERMS);
-    let moments = neighbours(g, x, centre, PAPER_TERMS);
-    let partial = moments.series(x, term(centre, g, x), Method::Paper);
-    let value = partial.estimate.value;
-    // With the ratio from the 101st term on falling, the rest is at most t₁₀₁/(1 − ratio).
+    let (moments, _) = neighbours(g, x, centre, PAPER_TERMS, NEGLIGIBLE);
+    let value = term(centre, g, x) * moments.sum;
+    let (condition_g, condition_x) = moments.conditions(x);
+    let own = rounding(condition_g, condition_x);
+
     let next = PAPER_TERMS + 1.0;
     let ratio = ratio_up(next, g, x);
-    if ratio < 0.5 {
-        let rest = (term(next, g, x) * (1.0 / (1.0 - ratio)) / value).to_f64();
-        if rest < 1e-3 {
-            let (condition_g, condition_x) = (partial.condition_g + 1.0, partial.condition_x + 1.0);
-            return LobeSeries::converged(value, rest, condition_g, condition_x, Method::Paper);
-        }
+    let first_missing = term(next, g, x);
+    let next_rounding = rounding((next - g).abs(), x / next);
+    let rest = if ratio < 1.0 {
+        let tail = first_missing * (1.0 / (1.0 - ratio));
+        tail + tail.spread(next_rounding)
+    } else {
+        Scaled::INFINITY
+    };
+    let of_rest = rest + value.spread(own);
+    let least = value.lowered(own) + first_missing.lowered(next_rounding);
+    if (rest / value).to_f64() < LITTLE {
+        // Whatever is missing, the mean of m and of 1/m hardly move.
+        let estimate = Estimate { value, error: of_rest, least };
+        let (condition_g, condition_x) = (condition_g + 1.0, condition_x + 1.0);
+        return LobeSeries { estimate, condition_g, condition_x, method: Method::Paper };
     }
-    let own = rounding(partial.condition_g, partial.condition_x);
-    LobeSeries::compared(value, own, &converged(g, x, &saddle), Method::Paper)
+    let judged = Enclosure::at(g, x, &saddle).judge(value, own, Method::Paper);
+    let Estimate { error, least: low, .. } = judged.estimate;
+    let estimate = Estimate { value, error: error.smaller(of_rest), least: low.larger(least) };
+    LobeSeries { estimate, ..judged }
 }
 
 /// t_{m+1}/t_m.
@@ -96,29 +132,34 @@ fn tilted(g: f64, tilt: f64) -> f64 {
     if tilt < 300.0 { g * libm::exp(tilt) } else { libm::exp(tilt + libm::log(g)) }
 }
 
-/// All terms that matter on both sides of `centre`, up to `last`, relative to the one at `centre`.
-fn neighbours(g: f64, x: f64, centre: f64, last: f64) -> Moments {
+/// All terms above `share` of the sum on both sides of `centre`, up to `last`, relative to the one at
+/// `centre`, and a bound of the rest: the terms beyond fall faster than geometrically.
+fn neighbours(g: f64, x: f64, centre: f64, last: f64, share: f64) -> (Moments, f64) {
     let mut moments = Moments::around(g);
     moments.add(centre, 1.0);
-    let (mut m, mut t) = (centre, 1.0);
+    let (mut m, mut t, mut ratio) = (centre, 1.0, 0.0);
     let mut matters = true;
     while matters && m < last {
-        let ratio = ratio_up(m, g, x);
+        ratio = ratio_up(m, g, x);
         t *= ratio;
         m += 1.0;
         moments.add(m, t);
-        matters = ratio >= 1.0 || t >= NEGLIGIBLE * moments.sum;
+        matters = ratio >= 1.0 || t >= share * moments.sum;
     }
-    (m, t) = (centre, 1.0);
+    let mut rest = t * ratio / (1.0 - ratio);
+    (m, t, ratio) = (centre, 1.0, 0.0);
     matters = true;
     while matters && m > 1.0 {
         m -= 1.0;
-        let ratio = 1.0 / ratio_up(m, g, x);
+        ratio = 1.0 / ratio_up(m, g, x);
         t *= ratio;
         moments.add(m, t);
-        matters = ratio >= 1.0 || t >= NEGLIGIBLE * moments.sum;
+        matters = ratio >= 1.0 || t >= share * moments.sum;
     }
-    moments
+    if m > 1.0 {
+        rest += t * ratio / (1.0 - ratio);
+    }
+    (moments, rest)
 }
 
 /// Every h-th term around the saddle times h. The nodes are multiples of a power of two: exact.
@@ -147,7 +188,7 @@ fn strided(g: f64, x: f64, saddle: &Saddle) -> LobeSeries {
         matters = t >= NEGLIGIBLE * moments.sum;
     }
     let scale = stride / (2.0 * core::f64::consts::PI).sqrt();
-    moments.series(x, Scaled::exp(-exponent_at_centre) * scale, Method::Series)
+    moments.series(x, Scaled::exp(-exponent_at_centre) * scale)
 }
 
 /// One term, e^{-g} g^m/(m! m) e^{-x/m}.
@@ -170,7 +211,7 @@ fn exponent(m: f64, g: f64, x: f64) -> f64 {
 }
 
 /// m ln(m/g) − m + g without cancellation: Loader's expansion in v = (m − g)/(m + g) near m = g.
-fn deviance(m: f64, g: f64) -> f64 {
+pub(super) fn deviance(m: f64, g: f64) -> f64 {
     let (difference, sum) = (m - g, m + g);
     if difference.abs() >= 0.1 * sum {
         // m/g overflows for a subnormal g.

@@ -1,50 +1,42 @@
-//! The report's two closed forms: one term for smooth surfaces, the saddle's leading behaviour
-//! for rough ones.
+//! The first term alone, for smooth surfaces.
 
-use super::{LobeSeries, Method, cheapest, rounding, series};
+use super::between::Enclosure;
+use super::{LobeSeries, Method, rounding};
 use crate::reflectance::estimate::Estimate;
-use crate::reflectance::numeric::lobe_series::saddle::Saddle;
 use crate::reflectance::numeric::scaled::Scaled;
 
+/// Up to this ratio of the second term to the first the closed bound is used.
+const CLOSED_UP_TO: f64 = 0.5;
+
 /// e^{-g} g e^{-x}: the first term of the series, (38), (48) with the exponential restored.
-///
-/// All terms are positive and their ratios fall (they are log-concave), so with r the ratio of the
-/// second to the first what is left out is below r/(1 − r) of the first. Where r says too little
-/// the error is measured against the sum.
 pub(super) fn smooth(g: f64, x: f64) -> LobeSeries {
-    let first = Scaled::exp(-(g + x)) * g;
+    let value = Scaled::exp(-(g + x)) * g;
     let ratio = second_to_first(g, x);
-    if ratio <= 0.25 {
-        // The mean of m lies between 1 and 2, that of 1/m between 1/2 and 1.
-        LobeSeries::converged(first, ratio / (1.0 - ratio), 2.0 + g, x, Method::Smooth)
-    } else {
-        let s = series::converged(g, x, &Saddle::of(g, x));
-        LobeSeries::compared(first, rounding(g, x), &s, Method::Smooth)
+    if ratio > CLOSED_UP_TO {
+        return Enclosure::of(g, x).judge(value, rounding(g, x), Method::Smooth);
     }
+    // The mean of m lies between 1 and 2, that of 1/m between 1/2 and 1.
+    let (condition_g, condition_x) = (2.0 + g, x);
+    let own = rounding(condition_g, condition_x);
+    let estimate = Estimate {
+        value,
+        error: value * rest_to_first(ratio) + value.spread(own),
+        least: (value * (1.0 + ratio)).lowered(own),
+    };
+    LobeSeries { estimate, condition_g, condition_x, method: Method::Smooth }
 }
 
-/// r = (g/4) e^{x/2}.
+/// r = (g/4) e^{x/2}, the second term over the first.
 pub(super) fn second_to_first(g: f64, x: f64) -> f64 {
-    0.25 * g * libm::exp(0.5 * x)
+    // A subnormal g would lose the quarter.
+    g * (0.25 * libm::exp(0.5 * x))
 }
 
-/// e^{-x/g}/g: (39), (49). Its error is measured against S, since no switch on g alone is safe
-/// (errata E23).
-pub(super) fn rough(g: f64, x: f64) -> LobeSeries {
-    let y = x / g;
-    let value = Scaled::exp(-y) / Scaled::new(g);
-    LobeSeries::compared(value, rounding(1.0, y), &cheapest(g, x), Method::Rough)
-}
-
-/// The limit of e^{-x/g}/g for g → 0, where S itself is 0.
-pub(super) fn rough_without_roughness(x: f64) -> LobeSeries {
-    let estimate = if x > 0.0 { Estimate::ZERO } else { Estimate::INFINITE };
-    LobeSeries { estimate, ..LobeSeries::zero(Method::Rough) }
-}
-
-/// temporary
+/// Bound of all further terms over the first; none, infinity, from r = 1 on.
+///
+/// The ratios of neighbours fall (the terms are log-concave), so the rest is below r/(1 − r₂), and
+/// r₂ = (2g/9) e^{x/6} ≤ 8r/9.
 #[inline(always)]
-pub(super) fn rough_truncation(g: f64, x: f64) -> f64 {
-    let y = x / g;
-    8.0 * (1.0 + y) * (1.0 + y) / g
+pub(super) fn rest_to_first(ratio: f64) -> f64 {
+    if ratio < 1.0 { ratio / (1.0 - 8.0 / 9.0 * ratio) } else { f64::INFINITY }
 }
