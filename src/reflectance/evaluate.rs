@@ -55,7 +55,18 @@ const PART: usize = 16 * LANES;
 ///
 /// A direction's answer does not depend on the others.
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
-    let Requirement { evaluated, omitted, share } = Requirement::of(scene, directions);
+    evaluate_required(scene, directions, quantity, output, Requirement::of(scene, directions))
+}
+
+/// Evaluates what is required of a scene.
+pub(super) fn evaluate_required(
+    scene: &Scene,
+    directions: &Directions,
+    quantity: Quantity,
+    output: Output,
+    requirement: Requirement,
+) -> Evaluation {
+    let Requirement { evaluated, omitted, share } = requirement;
     let needed = scene.with_only(&evaluated);
     let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
