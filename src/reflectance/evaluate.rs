@@ -70,7 +70,9 @@ pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, outp
     for first in (0..count).step_by(at_once) {
         let starts: Vec<usize> = (first..count.min(first + at_once)).step_by(PART).collect();
         let parts: Vec<Answer> = starts.into_par_iter().map(part).collect();
-        parts.into_iter().for_each(|part| whole.append(part));
+        for part in parts {
+            whole.append(part);
+        }
     }
     whole.finish()
 }
@@ -213,9 +215,7 @@ impl<'a> Answer<'a> {
     }
 
     fn count(&mut self, by: EvaluatedBy) {
-        for (candidate, count) in EvaluatedBy::ALL.iter().zip(&mut self.counts) {
-            *count += usize::from(*candidate == by);
-        }
+        self.counts[by.index()] += 1;
         if let Some(method) = &mut self.method {
             method.push(by);
         }

@@ -72,6 +72,19 @@ impl EvaluatedBy {
         Self::Lobe(Method::Rough),
     ];
 
+    /// Its place among all.
+    pub(super) const fn index(self) -> usize {
+        match self {
+            Self::ClosedForm => 0,
+            // Auto counts as what it takes.
+            Self::Lobe(Method::Auto | Method::Series) => 1,
+            Self::Lobe(Method::Paper) => 2,
+            Self::Lobe(Method::Uniform) => 3,
+            Self::Lobe(Method::Smooth) => 4,
+            Self::Lobe(Method::Rough) => 5,
+        }
+    }
+
     /// The name in answers.
     pub const fn name(self) -> &'static str {
         match self {

@@ -9,14 +9,14 @@ use crate::reflectance::numeric::lobe_series::lanes::{LANES, Lanes};
 const ZERO: Lanes = [0.0; LANES];
 
 /// One of the three angles of up to [`LANES`] directions, degrees.
-pub struct AngleLanes {
+pub(in crate::reflectance) struct AngleLanes {
     /// The first holds for all if they are one.
     pub(in crate::reflectance) degrees: Lanes,
     pub(in crate::reflectance) is_one: bool,
 }
 
 /// Directions in the order of the request.
-pub struct DirectionLanes {
+pub(in crate::reflectance) struct DirectionLanes {
     pub(in crate::reflectance) count: usize,
     pub(in crate::reflectance) theta_i: AngleLanes,
     pub(in crate::reflectance) theta_r: AngleLanes,
@@ -47,7 +47,8 @@ impl SinCosLanes {
     fn fill(&mut self, count: usize, is_one: bool, angle: impl Fn(usize) -> f64) {
         if is_one {
             let SinCos { sin, cos } = SinCos::of_degrees(angle(0));
-            (self.sin[..count].fill(sin), self.cos[..count].fill(cos));
+            self.sin[..count].fill(sin);
+            self.cos[..count].fill(cos);
         } else {
             for lane in 0..count {
                 let SinCos { sin, cos } = SinCos::of_degrees(angle(lane));
@@ -64,7 +65,7 @@ impl SinCosLanes {
 }
 
 /// [`Geometry`], one array a field.
-pub struct Geometries {
+pub(in crate::reflectance) struct Geometries {
     pub(in crate::reflectance) cos_i: Lanes,
     pub(in crate::reflectance) cos_r: Lanes,
     pub(in crate::reflectance) cos_sum: Lanes,

@@ -25,15 +25,18 @@ pub struct Exponential {
 pub fn exp(x: f64) -> Exponential {
     let exponent = (x * core::f64::consts::LOG2_E + ROUNDER) - ROUNDER;
     let r = (x - exponent * LN2_HIGH) - exponent * LN2_LOW;
-    // |r| ≤ 0.3466: the first power left out, r^14/14!, is below 5e-18.
-    let tail = 1.0 / 40_320.0
-        + r * (1.0 / 362_880.0
-            + r * (1.0 / 3_628_800.0
-                + r * (1.0 / 39_916_800.0 + r * (1.0 / 479_001_600.0 + r * (1.0 / 6_227_020_800.0)))));
-    let tail = 0.5
-        + r * (1.0 / 6.0
-            + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r * (1.0 / 5040.0 + r * tail)))));
-    let less_one = r + r * r * tail;
+    // |r| ≤ 0.3466: the first power left out, r^14/14!, is below 5e-18. Even and odd powers apart: two
+    // short chains of operations instead of a long one.
+    let z = r * r;
+    let even = 0.5
+        + z * (1.0 / 24.0
+            + z * (1.0 / 720.0 + z * (1.0 / 40_320.0 + z * (1.0 / 3_628_800.0 + z * (1.0 / 479_001_600.0)))));
+    let odd = 1.0 / 6.0
+        + z * (1.0 / 120.0
+            + z * (1.0 / 5040.0
+                + z * (1.0 / 362_880.0 + z * (1.0 / 39_916_800.0 + z * (1.0 / 6_227_020_800.0)))));
+    let tail = even + r * odd;
+    let less_one = r + z * tail;
     Exponential { significand: 1.0 + less_one, exponent, less_one }
 }
 
@@ -148,4 +151,67 @@ pub fn sin_cos_degrees(angle: f64) -> (f64, f64) {
 #[inline(always)]
 pub fn binary_exponent(x: f64) -> f64 {
     f64::from_bits(((x.to_bits() >> 52) & 0x7ff) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{binary_exponent, exp, ln, ln_1p_roughly, scale, sin_cos_degrees};
+    use crate::reflectance::numeric::EPSILON;
+
+    /// libm's functions are good to an ulp, 2 ε, which adds to what is allowed here.
+    const OF_LIBM: f64 = 2.0;
+
+    fn near(got: f64, expected: f64, units: f64, at: f64) {
+        let error = (got - expected).abs() / (expected.abs() * EPSILON);
+        assert!(error <= units + OF_LIBM, "{at}: {got} {expected} {error}");
+    }
+
+    #[test]
+    fn exponentials_and_logarithms() {
+        for step in -7000..=7000 {
+            let x = f64::from(step) * 0.1 + 1e-3;
+            // Measured against 140 bits: 1.36 ε, expm1 2.2 ε, ln 1.5 ε.
+            near(exp(x).value(), libm::exp(x), 2.0, x);
+            if x > 0.0 {
+                near(exp(x * 0.01).minus_one(), libm::expm1(x * 0.01), 4.0, x);
+                near(ln(x), libm::log(x), 3.0, x);
+                assert!((ln_1p_roughly(x) / libm::log1p(x) - 1.0).abs() < 1e-3, "{x}");
+            }
+            let power = libm::exp2(x);
+            near(ln(power), libm::log(power), 3.0, power);
+            assert_eq!(binary_exponent(power), x.floor(), "{x}");
+        }
+        assert!((ln_1p_roughly(1e-12) / 1e-12 - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn exponents_are_carried_beyond_the_range() {
+        let e = exp(-1e6);
+        assert!((e.exponent + 1e6 * core::f64::consts::LOG2_E).abs() <= 1.0);
+        assert_eq!(scale(e.significand, e.exponent), 0.0);
+        assert_eq!(scale(1.5, 3000.0), f64::INFINITY);
+        for k in [-1074, -1030, -1022, -600, 0, 600, 1023] {
+            assert_eq!(scale(1.0, f64::from(k)), 2f64.powi(k / 2) * 2f64.powi(k - k / 2), "{k}");
+        }
+    }
+
+    #[test]
+    fn sines_and_cosines() {
+        for step in -72_000..=72_000 {
+            let angle = f64::from(step) * 0.01;
+            let (sin, cos) = sin_cos_degrees(angle);
+            // The remainder of 90° has no rounding but what the literal has.
+            let rest = angle - 90.0 * (angle / 90.0).round();
+            let (near_sin, near_cos) = libm::sincos(rest.to_radians());
+            let (expected_sin, expected_cos) = match ((angle / 90.0).round() as i64).rem_euclid(4) {
+                0 => (near_sin, near_cos),
+                1 => (near_cos, -near_sin),
+                2 => (-near_sin, -near_cos),
+                _ => (-near_cos, near_sin),
+            };
+            // Measured against 140 bits: 2.02 ε; to_radians rounds twice, which |x/tan x| ≤ 1 does not enlarge.
+            near(sin, expected_sin, 3.0 + 2.0, angle);
+            near(cos, expected_cos, 3.0 + 2.0, angle);
+        }
+    }
 }

@@ -1,78 +1,115 @@
 //! The points of a batch that need the saddle: its position by Lambert's W, then R by a polynomial
 //! patch where the sum equals its integral, the sum itself where few terms matter.
 
-use super::direct;
-use super::lanes::{Batch, Form, Forms, LANES, Lanes, Places};
-use super::patches::{Patch, Tier};
-use super::Method;
+use super::lanes::{Batch, Form, LANES, Lanes, Places};
+use super::patches::{MOST_PATCHES, Patch, Tier};
+use super::{Method, direct};
 use crate::reflectance::numeric::elementary::{exp, ln_1p_roughly};
+use core::ops::Range;
 
-/// The saddles of a batch's points.
-struct Saddles {
-    /// 1/μ
-    inverse_mu: Lanes,
-    mu: Lanes,
-    /// 1/w
-    t: Lanes,
-    form: Forms,
-}
-
-/// Evaluates S at some of the points.
+/// Evaluates S at the points of [`Method::Uniform`], of which it may make points of [`Method::Series`], or of
+/// [`Method::Auto`] beyond the domain; what it leaves at the other points says nothing.
 #[inline(always)]
-pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], batch: &mut Batch) {
-    let (mut g_there, mut x_there) = ([0.0; LANES], [0.0; LANES]);
-    let (g, x) = (places.gather(g, &mut g_there), places.gather(x, &mut x_there));
-    let mut saddles =
-        Saddles { inverse_mu: [0.0; LANES], mu: [0.0; LANES], t: [0.0; LANES], form: Forms::new() };
-    for (place, (&g, &x)) in g.iter().zip(x).enumerate() {
-        let (mu, t, form) = leading_term(g, x);
-        saddles.mu[place] = mu;
-        saddles.inverse_mu[place] = 1.0 / mu;
-        saddles.t[place] = t;
-        saddles.form.set(place, &form);
+pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
+    let count = g.len().min(x.len()).min(LANES);
+    let (mut mu, mut w) = ([0.0; LANES], [0.0; LANES]);
+    for place in 0..count {
+        let (at_mu, at_w, form) = leading_term(g[place], x[place]);
+        mu[place] = at_mu;
+        w[place] = at_w;
+        batch.set(place, &form);
     }
     let mut few = Places::none();
-    let mut patched = [const { Places::none() }; MOST_PATCHES];
-    for place in 0..g.len() {
-        let mu = saddles.mu[place];
-        let number = tier.patches.iter().filter(|patch| mu >= patch.mu_from).count();
-        if number == 0 || mu * saddles.t[place] < tier.variance_from {
-            few.push(place);
-        } else {
-            patched[number - 1].push(place);
+    let mut patched = Sorted::new();
+    for place in 0..count {
+        if batch.method[place] != Method::Uniform {
+            continue;
+        }
+        // The rounding of the exponent, and with it the conditions, are bounded below this size only.
+        let is_bounded = batch.exponent[place].abs() < 1e15;
+        match tier.number_at(mu[place], w[place]) {
+            _ if !is_bounded => batch.method[place] = Method::Auto,
+            Some(number) => patched.add(place, number),
+            None => {
+                few.push(place);
+                batch.method[place] = Method::Series;
+            }
         }
     }
-    for (patch, of_patch) in tier.patches.iter().zip(&patched) {
-        if of_patch.count > 0 {
-            correct(patch, of_patch, &mut saddles);
+    let places = patched.places();
+    for (number, range) in patched.ranges() {
+        let Some(patch) = tier.patch(number) else { continue };
+        for places in places[range].chunks(2 * BLOCK) {
+            if places.len() > BLOCK {
+                correct::<{ 2 * BLOCK }>(patch, places, &mu, &w, batch);
+            } else {
+                correct::<BLOCK>(patch, places, &mu, &w, batch);
+            }
         }
     }
-    if few.count > 0 {
-        direct::evaluate(tier, &few, g, x, &saddles.mu, &mut saddles.form);
+    direct::evaluate(tier, &few, g, x, &mu, batch);
+}
+
+/// The least number of points that a patch is evaluated at together. Twice as many still have their
+/// accumulators in registers.
+const BLOCK: usize = 16;
+
+/// Places by the number of their patch.
+struct Sorted {
+    numbers: [u8; LANES],
+    counts: [usize; MOST_PATCHES],
+}
+
+impl Sorted {
+    const fn new() -> Self {
+        Self { numbers: [u8::MAX; LANES], counts: [0; MOST_PATCHES] }
     }
-    saddles.form.scatter(places, Method::Uniform, batch);
-    for &place in few.all() {
-        batch.method[usize::from(places.all()[usize::from(place)])] = Method::Series;
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "below MOST_PATCHES")]
+    fn add(&mut self, place: usize, number: usize) {
+        self.numbers[place] = number as u8;
+        self.counts[number] += 1;
     }
-    for (place, &there) in places.all().iter().enumerate() {
-        // The exponent's own rounding, and with it the conditions, are bounded below this size only.
-        if !(saddles.form.exponent[place].abs() < 1e15) {
-            batch.method[usize::from(there)] = Method::Auto;
+
+    /// Those of each patch that has some.
+    #[inline(always)]
+    fn ranges(&self) -> impl Iterator<Item = (usize, Range<usize>)> + '_ {
+        let ranges = self.counts.iter().scan(0, |end, &count| {
+            let start = *end;
+            *end += count;
+            Some(start..*end)
+        });
+        ranges.enumerate().filter(|(_, range)| !range.is_empty())
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "below LANES")]
+    fn places(&self) -> [u8; LANES] {
+        let mut next = [0; MOST_PATCHES];
+        for (number, range) in self.ranges() {
+            next[number] = range.start;
         }
+        let mut places = [0; LANES];
+        for (place, &number) in self.numbers.iter().enumerate() {
+            if let Some(next) = next.get_mut(usize::from(number)) {
+                places[*next] = place as u8;
+                *next += 1;
+            }
+        }
+        places
     }
 }
 
-/// Patches of one tier at most.
-pub(super) const MOST_PATCHES: usize = 10;
-
-/// μ, 1/w and e^ψ/(μ √w) with the conditions of S.
+/// μ, w and e^ψ/(μ √w) with the conditions of S.
 #[inline(always)]
 fn leading_term(g: f64, x: f64) -> (f64, f64, Form) {
     let u = 0.5 * lambert_w(2.0 * (x / g) / g);
     let growth = exp(u);
     let mu = g * growth.value();
     let less_one = growth.minus_one();
-    let t = 1.0 / (1.0 + 2.0 * u);
+    let w = 1.0 + 2.0 * u;
+    let t = 1.0 / w;
     // ψ = g (e^u (1 − u) − 1) − x/μ is stationary in u: what W lacks in digits enters squared.
     let steepness = x / mu;
     let psi = exp(g * (less_one * (1.0 - u) - u) - steepness);
@@ -83,7 +120,7 @@ fn leading_term(g: f64, x: f64) -> (f64, f64, Form) {
         condition_g: (g * less_one - t + 2.0 * u * (t * t)).abs(),
         condition_x: steepness + u * t + u * (t * t),
     };
-    (mu, t, form)
+    (mu, w, form)
 }
 
 /// W₀(z) for 0 ≤ z ≤ 1e250 to 1e-10, relative.
@@ -101,36 +138,32 @@ fn lambert_w(z: f64) -> f64 {
     w
 }
 
-/// Multiplies by R.
+/// Multiplies by R at up to `BLOCK` places.
 #[inline(always)]
-fn correct(patch: &Patch, places: &Places, saddles: &mut Saddles) {
-    /// Points whose accumulators stay in registers.
-    const BLOCK: usize = 32;
-    for places in places.all().chunks(BLOCK) {
-        let (mut p, mut q) = ([0.0; BLOCK], [0.0; BLOCK]);
-        for ((p, q), &place) in p.iter_mut().zip(&mut q).zip(places) {
-            *p = saddles.inverse_mu[usize::from(place)];
-            *q = saddles.t[usize::from(place)];
-        }
-        for (p, q) in p.iter_mut().zip(&mut q) {
-            *p = *p * patch.p_scale + patch.p_shift;
-            *q = *q * patch.q_scale + patch.q_shift;
-        }
-        let mut r = [0.0; BLOCK];
-        for row in patch.rows.iter().rev() {
-            let mut of_row = [0.0; BLOCK];
-            for &coefficient in row.iter().rev() {
-                for (sum, &q) in of_row.iter_mut().zip(&q) {
-                    *sum = *sum * q + coefficient;
-                }
-            }
-            for ((r, &p), &of_row) in r.iter_mut().zip(&p).zip(&of_row) {
-                *r = *r * p + of_row;
+fn correct<const BLOCK: usize>(patch: &Patch, places: &[u8], mu: &Lanes, w: &Lanes, batch: &mut Batch) {
+    let (mut p, mut q) = ([1.0; BLOCK], [1.0; BLOCK]);
+    for ((p, q), &place) in p.iter_mut().zip(&mut q).zip(places) {
+        *p = mu[usize::from(place)];
+        *q = w[usize::from(place)];
+    }
+    for (p, q) in p.iter_mut().zip(&mut q) {
+        *p = patch.p_scale / *p + patch.p_shift;
+        *q = patch.q_scale / (*q + patch.w_shift) + patch.q_shift;
+    }
+    let mut r = [0.0; BLOCK];
+    for row in patch.rows.iter().rev() {
+        let mut of_row = [0.0; BLOCK];
+        for &coefficient in row.iter().rev() {
+            for (sum, &q) in of_row.iter_mut().zip(&q) {
+                *sum = *sum * q + coefficient;
             }
         }
-        for (&r, &place) in r.iter().zip(places) {
-            saddles.form.significand[usize::from(place)] *= r;
-            saddles.form.truncation[usize::from(place)] = patch.error;
+        for ((r, &p), &of_row) in r.iter_mut().zip(&p).zip(&of_row) {
+            *r = *r * p + of_row;
         }
+    }
+    for (&r, &place) in r.iter().zip(places) {
+        batch.significand[usize::from(place)] *= r;
+        batch.truncation[usize::from(place)] = patch.error;
     }
 }

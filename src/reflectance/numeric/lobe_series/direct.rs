@@ -1,6 +1,6 @@
 //! The sum itself in vector lanes, for the points of a batch where few terms matter.
 
-use super::lanes::{Forms, LANES, Lanes, Places};
+use super::lanes::{Batch, LANES, Lanes, Places};
 use super::patches::Tier;
 use super::series::stirling_remainder;
 use crate::reflectance::numeric::elementary::{exp, ln};
@@ -27,7 +27,7 @@ struct Walk {
 /// Sums around the largest term, near `mu`, until what is left out of either side is below a quarter of the
 /// truncation.
 #[inline(always)]
-pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], mu: &Lanes, forms: &mut Forms) {
+pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], mu: &Lanes, batch: &mut Batch) {
     for places in places.all().chunks(BLOCK) {
         let mut walk = Walk::new();
         for (lane, &place) in places.iter().enumerate() {
@@ -56,11 +56,11 @@ pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], mu: &
         }
         for (lane, &place) in places.iter().enumerate() {
             let place = usize::from(place);
-            forms.significand[place] = walk.term[lane];
-            forms.exponent[place] = walk.m[lane];
-            forms.condition_g[place] = walk.first[lane];
-            forms.condition_x[place] = walk.inverse[lane];
-            forms.truncation[place] = 0.5 * tier.truncation;
+            batch.significand[place] = walk.term[lane];
+            batch.exponent[place] = walk.m[lane];
+            batch.condition_g[place] = walk.first[lane];
+            batch.condition_x[place] = walk.inverse[lane];
+            batch.truncation[place] = 0.5 * tier.truncation;
         }
     }
 }
@@ -160,4 +160,4 @@ fn deviance(m: f64, g: f64) -> f64 {
     if v2 < 0.01 { near } else { far }
 }
 
-const _: () = assert!(LANES % BLOCK == 0, "whole blocks");
+const _: () = assert!(LANES.is_multiple_of(BLOCK), "whole blocks");

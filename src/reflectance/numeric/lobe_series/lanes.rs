@@ -4,6 +4,9 @@
 //! Which method serves depends on g, x and the truncation alone, never on the neighbours, so a point has
 //! one value whatever batch it comes in.
 
+#[cfg(test)]
+mod tests;
+
 use super::patches::Tier;
 use super::{LobeSeries, Method, by_saddle, rough, single_term};
 use crate::reflectance::numeric::dispatch::vectorized;
@@ -34,6 +37,21 @@ pub struct Batch {
     pub method: [Method; LANES],
 }
 
+/// One point's value with what its bound is made of.
+pub(super) struct Form {
+    pub(super) significand: f64,
+    pub(super) exponent: f64,
+    pub(super) truncation: f64,
+    pub(super) condition_g: f64,
+    pub(super) condition_x: f64,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Batch {
     /// Room for a batch.
     pub const fn new() -> Self {
@@ -57,6 +75,15 @@ impl Batch {
         (method != Method::Auto)
             .then(|| LobeSeries::converged(value, truncation, condition_g, condition_x, method))
     }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, place: usize, form: &Form) {
+        self.significand[place] = form.significand;
+        self.exponent[place] = form.exponent;
+        self.truncation[place] = form.truncation;
+        self.condition_g[place] = form.condition_g;
+        self.condition_x[place] = form.condition_x;
+    }
 }
 
 vectorized! {
@@ -68,7 +95,7 @@ vectorized! {
 
 /// Positions of some of a batch's points.
 pub(super) struct Places {
-    pub(super) count: usize,
+    count: usize,
     at: [u8; LANES],
 }
 
@@ -88,112 +115,59 @@ impl Places {
     pub(super) fn all(&self) -> &[u8] {
         &self.at[..self.count]
     }
-
-    #[inline(always)]
-    pub(super) fn gather<'a>(&self, from: &[f64], to: &'a mut Lanes) -> &'a [f64] {
-        for (to, &place) in to.iter_mut().zip(self.all()) {
-            *to = from[usize::from(place)];
-        }
-        &to[..self.count]
-    }
-
-    #[inline(always)]
-    fn scatter(&self, from: &[f64], to: &mut Lanes) {
-        for (&from, &place) in from.iter().zip(self.all()) {
-            to[usize::from(place)] = from;
-        }
-    }
 }
 
 #[inline(always)]
 fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
-    let (mut first, mut rough, mut rest) = (Places::none(), Places::none(), Places::none());
-    for (place, (&g, &x)) in g.iter().zip(x).enumerate() {
-        batch.method[place] = Method::Auto;
-        if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
-            continue;
-        }
-        if 0.25 * g <= tier.truncation && single_term::second_to_first(g, x) <= tier.truncation {
+    let count = g.len().min(x.len()).min(LANES);
+    let (g, x) = (&g[..count], &x[..count]);
+    let (mut first, mut rough_places) = (Places::none(), Places::none());
+    for place in 0..count {
+        let (g, x) = (g[place], x[place]);
+        let method = if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
+            Method::Auto
+        } else if 0.25 * g <= tier.truncation
+            && single_term::rest_to_first(single_term::second_to_first(g, x)) <= tier.truncation
+        {
             first.push(place);
+            Method::Smooth
         } else if rough::bound(g, x) <= tier.truncation {
-            rough.push(place);
+            rough_places.push(place);
+            Method::Rough
         } else {
-            rest.push(place);
-        }
+            // Or the sum.
+            Method::Uniform
+        };
+        batch.method[place] = method;
     }
-    if first.count > 0 {
-        by(Method::Smooth, first_terms, &first, g, x, batch);
+    if first.count + rough_places.count < count {
+        by_saddle::evaluate(tier, g, x, batch);
     }
-    if rough.count > 0 {
-        by(Method::Rough, rough_forms, &rough, g, x, batch);
-    }
-    if rest.count > 0 {
-        by_saddle::evaluate(tier, &rest, g, x, batch);
-    }
+    by(first_terms, &first, g, x, batch);
+    by(rough_forms, &rough_places, g, x, batch);
 }
 
-/// Evaluates `form`, significand, exponent and truncation with both conditions, at some of the points.
+/// Evaluates `form` at some of the points.
 #[inline(always)]
-fn by(
-    method: Method,
-    form: impl Fn(f64, f64) -> Form,
-    places: &Places,
-    g: &[f64],
-    x: &[f64],
-    batch: &mut Batch,
-) {
+fn by(form: impl Fn(f64, f64) -> Form, places: &Places, g: &[f64], x: &[f64], batch: &mut Batch) {
     let (mut g_there, mut x_there) = ([0.0; LANES], [0.0; LANES]);
-    let (g, x) = (places.gather(g, &mut g_there), places.gather(x, &mut x_there));
-    let mut forms = Forms::new();
-    for (place, (&g, &x)) in g.iter().zip(x).enumerate() {
-        forms.set(place, &form(g, x));
+    for ((g_there, x_there), &place) in g_there.iter_mut().zip(&mut x_there).zip(places.all()) {
+        *g_there = g[usize::from(place)];
+        *x_there = x[usize::from(place)];
     }
-    forms.scatter(places, method, batch);
-}
-
-/// One value with what its bound is made of.
-pub(super) struct Form {
-    pub(super) significand: f64,
-    pub(super) exponent: f64,
-    pub(super) truncation: f64,
-    pub(super) condition_g: f64,
-    pub(super) condition_x: f64,
-}
-
-/// Those of many points.
-pub(super) struct Forms {
-    pub(super) significand: Lanes,
-    pub(super) exponent: Lanes,
-    pub(super) truncation: Lanes,
-    pub(super) condition_g: Lanes,
-    pub(super) condition_x: Lanes,
-}
-
-impl Forms {
-    pub(super) const fn new() -> Self {
-        let zero = [0.0; LANES];
-        Self { significand: zero, exponent: zero, truncation: zero, condition_g: zero, condition_x: zero }
+    let mut forms = Batch::new();
+    for place in 0..places.count.min(LANES) {
+        forms.set(place, &form(g_there[place], x_there[place]));
     }
-
-    #[inline(always)]
-    pub(super) fn set(&mut self, place: usize, form: &Form) {
-        self.significand[place] = form.significand;
-        self.exponent[place] = form.exponent;
-        self.truncation[place] = form.truncation;
-        self.condition_g[place] = form.condition_g;
-        self.condition_x[place] = form.condition_x;
-    }
-
-    #[inline(always)]
-    pub(super) fn scatter(&self, places: &Places, method: Method, batch: &mut Batch) {
-        places.scatter(&self.significand, &mut batch.significand);
-        places.scatter(&self.exponent, &mut batch.exponent);
-        places.scatter(&self.truncation, &mut batch.truncation);
-        places.scatter(&self.condition_g, &mut batch.condition_g);
-        places.scatter(&self.condition_x, &mut batch.condition_x);
-        for &place in places.all() {
-            batch.method[usize::from(place)] = method;
-        }
+    for (place, &there) in places.all().iter().enumerate() {
+        let form = Form {
+            significand: forms.significand[place],
+            exponent: forms.exponent[place],
+            truncation: forms.truncation[place],
+            condition_g: forms.condition_g[place],
+            condition_x: forms.condition_x[place],
+        };
+        batch.set(usize::from(there), &form);
     }
 }
 
