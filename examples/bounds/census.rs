@@ -20,7 +20,7 @@ pub(crate) struct Seen {
     pub(crate) name: &'static str,
     /// Points where it serves: bound ≤ 0.5 and an error that is more than rounding.
     pub(crate) useful: u64,
-    /// Largest error over bound anywhere.
+    /// Largest error over bound where it serves.
     pub(crate) largest_share: f64,
     /// Largest bound over error where it serves, and where that is.
     pub(crate) most_idle: (f64, f64, f64),
@@ -53,6 +53,7 @@ impl Seen {
 
     fn ratio(&mut self, g: f64, x: f64, ratio: f64) {
         self.useful += 1;
+        self.largest_share = self.largest_share.max(1.0 / ratio);
         if ratio > self.most_idle.0 {
             self.most_idle = (ratio, g, x);
         }
@@ -149,9 +150,7 @@ fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSer
         return;
     }
     let off = mine.value.distance(exact.value);
-    let share = if off.is_zero() { 0.0 } else { (off / (mine.error + exact.error)).to_f64() };
-    seen.largest_share = seen.largest_share.max(share);
-    if share > 1.0 {
+    if above(off, mine.error + exact.error) {
         seen.violation(g, x, "the error is above its bound");
     }
     if above(mine.least, exact.value + exact.error) {
