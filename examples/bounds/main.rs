@@ -47,7 +47,7 @@ fn report(census: &Census, count: u64) {
     println!("| --- | --- | --- | --- | --- | --- | --- |");
     for seen in census.all() {
         let (worst, g, x) = seen.most_idle;
-        let (name, median) = (seen.name, seen.median());
+        let (name, median) = (&seen.name, seen.median());
         let (violations, share, useful) = (seen.violations, seen.largest_share, seen.useful);
         println!(
             "| {name} | {violations} | {useful} | {share:.4} | {median:.3} | {worst:.3e} | {g:e}, {x:e} |"
