@@ -20,8 +20,14 @@ use std::time::Instant;
 const DIRECTIONS: usize = 100_000;
 const ROUNDS: usize = 7;
 /// Lower ends of the bands of μ, and the σ_h/λ whose μ lies in the band for every direction of the bench.
-const BANDS: [(&str, f64); 6] =
-    [("10-30", 0.40), ("30-100", 0.70), ("100-300", 1.25), ("300-1e3", 2.2), ("1e3-1e4", 5.0), ("> 1e4", 40.0)];
+const BANDS: [(&str, f64); 6] = [
+    ("10-30", 0.40),
+    ("30-100", 0.70),
+    ("100-300", 1.25),
+    ("300-1e3", 2.2),
+    ("1e3-1e4", 5.0),
+    ("> 1e4", 40.0),
+];
 const TOLERANCES: [f64; 6] = [1e-13, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1];
 
 fn main() {
@@ -66,8 +72,12 @@ fn report() {
             }
         }
         for tolerance in [1e-13, 1e-9, 1e-3] {
-            let evaluation =
-                evaluate(&scene(*height, tolerance, Method::Auto), &directions, Quantity::Radiance, Output::default());
+            let evaluation = evaluate(
+                &scene(*height, tolerance, Method::Auto),
+                &directions,
+                Quantity::Radiance,
+                Output::default(),
+            );
             chosen.push((number, band, tolerance, evaluation.methods));
         }
     }
@@ -130,8 +140,11 @@ fn whole(scene: &Scene, directions: &Directions) -> f64 {
 
 /// ns of one element of `wide`'s exp as this program was compiled.
 fn wide_exp() -> f64 {
-    let arguments: Vec<[f64; 4]> =
-        random(7, -20.0, 0.0).chunks_exact(4).map(|four| [four[0], four[1], four[2], four[3]]).take(256).collect();
+    let arguments: Vec<[f64; 4]> = random(7, -20.0, 0.0)
+        .chunks_exact(4)
+        .map(|four| [four[0], four[1], four[2], four[3]])
+        .take(256)
+        .collect();
     let mut results = vec![[0.0; 4]; arguments.len()];
     let time = || {
         let start = Instant::now();

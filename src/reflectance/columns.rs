@@ -77,12 +77,7 @@ impl Columns {
     }
 
     /// Adds a direction; `estimates` by [`Component::index`], and their sum.
-    pub(super) fn push(
-        &mut self,
-        index: usize,
-        estimates: &[Option<Estimate>; 3],
-        total: Estimate,
-    ) -> Total {
+    pub(super) fn push(&mut self, index: usize, estimates: &[Option<Estimate>; 3], total: Estimate) -> Total {
         let first_diagnostic = self.diagnostics.len();
         let diagnostics = &mut self.diagnostics;
         for column in &mut self.components {

@@ -55,21 +55,21 @@ const PART: usize = 16 * LANES;
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
     let kernel = Kernel::new(scene, quantity);
     let count = directions.count();
-    let part = |first: usize| {
+    let part = |block: &mut Block, first: usize| {
         let end = count.min(first + PART);
         let mut answer = Answer::new(scene, end - first, output);
-        Block::new().evaluate(&kernel, directions, first..end, &mut answer);
+        block.evaluate(&kernel, directions, first..end, &mut answer);
         answer
     };
     if count <= PART {
-        return part(0).finish();
+        return part(&mut Block::new(), 0).finish();
     }
     let mut whole = Answer::new(scene, count, output);
     // A few parts a thread at a time, so that what is not yet in its place stays small.
     let at_once = 4 * PART * rayon::current_num_threads();
     for first in (0..count).step_by(at_once) {
         let starts: Vec<usize> = (first..count.min(first + at_once)).step_by(PART).collect();
-        let parts: Vec<Answer> = starts.into_par_iter().map(part).collect();
+        let parts: Vec<Answer> = starts.into_par_iter().map_init(Block::new, part).collect();
         for part in parts {
             whole.append(part);
         }
@@ -178,18 +178,31 @@ impl<'a> Answer<'a> {
 
     /// Directions in which one component is all there is; none of the numbers needs a word but those that are 0
     /// because they underflow.
-    pub(super) fn extend(&mut self, first: usize, values: &[f64], bounds: &[f64], by: impl Fn(usize) -> EvaluatedBy) {
+    pub(super) fn extend(
+        &mut self,
+        first: usize,
+        values: &[f64],
+        bounds: &[f64],
+        by: impl Fn(usize) -> EvaluatedBy,
+    ) {
         self.columns.extend(values, bounds);
         let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
-        for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
-            if bound > tolerance {
-                self.tolerance.add(first + place, bound);
-            }
-            if value == 0.0 {
-                self.underflow.add(first + place, 0.0);
-            }
-            self.count(by(place));
+        let (mut largest, mut least) = (0.0, f64::MAX);
+        for (&value, &bound) in values.iter().zip(bounds) {
+            largest = if bound > largest { bound } else { largest };
+            least = if value < least { value } else { least };
         }
+        if largest > tolerance || least == 0.0 {
+            for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
+                if bound > tolerance {
+                    self.tolerance.add(first + place, bound);
+                }
+                if value == 0.0 {
+                    self.underflow.add(first + place, 0.0);
+                }
+            }
+        }
+        (0..values.len()).for_each(|place| self.count(by(place)));
     }
 
     /// The logarithms are asked for.

@@ -182,7 +182,9 @@ impl<'a> Kernel<'a> {
             && self.shadowing == Shadowing::None;
         let (roughness, _) = self.series().filter(|_| alone)?;
         match self.quantity {
-            Quantity::Radiance => Some(Common { roughness, strength: self.irradiance, over_both_cosines: false }),
+            Quantity::Radiance => {
+                Some(Common { roughness, strength: self.irradiance, over_both_cosines: false })
+            }
             Quantity::Brdf => Some(Common { roughness, strength: 1.0, over_both_cosines: true }),
             Quantity::ImageIrradiance { .. } => None,
         }

@@ -3,8 +3,8 @@
 use super::beckmann_spizzichino::Patch;
 use super::columns::{Columns, ComponentColumn};
 use super::degrees::{self, SinCos};
-use super::estimate::Estimate;
 use super::directions::Directions;
+use super::estimate::Estimate;
 use super::findings::Diagnostic;
 use super::image_irradiance::{LinearModel, Offset, Spike, Strengths};
 use super::numeric::scaled::Scaled;

@@ -73,7 +73,11 @@ pub fn scale(significand: f64, exponent: f64) -> f64 {
     let rest = half - quarter;
     let other = k - half;
     let other_quarter = (other * 0.5 + ROUNDER) - ROUNDER;
-    significand * step * power_of_two(rest) * power_of_two(other_quarter) * power_of_two(other - other_quarter)
+    significand
+        * step
+        * power_of_two(rest)
+        * power_of_two(other_quarter)
+        * power_of_two(other - other_quarter)
 }
 
 /// ln x for a normal x, relative error below 3 ε.

@@ -19,16 +19,18 @@ pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
         w[place] = at_w;
         batch.set(place, &form);
     }
+    if let Some(patch) = common_patch(tier, &mu[..count], &w[..count], &batch.exponent[..count]) {
+        for start in (0..count).step_by(2 * BLOCK) {
+            let end = count.min(start + 2 * BLOCK);
+            correct_run(patch, start..end, &mu, &w, batch);
+        }
+        return;
+    }
     let mut few = Places::none();
     let mut patched = Sorted::new();
     for place in 0..count {
-        if batch.method[place] != Method::Uniform {
-            continue;
-        }
-        // The rounding of the exponent, and with it the conditions, are bounded below this size only.
-        let is_bounded = batch.exponent[place].abs() < 1e15;
         match tier.number_at(mu[place], w[place]) {
-            _ if !is_bounded => batch.method[place] = Method::Auto,
+            _ if !is_bounded(batch.exponent[place]) => batch.method[place] = Method::Auto,
             Some(number) => patched.add(place, number),
             None => {
                 few.push(place);
@@ -48,6 +50,28 @@ pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
         }
     }
     direct::evaluate(tier, &few, g, x, &mu, batch);
+}
+
+/// The rounding of the exponent, and with it the conditions, are bounded below this size only.
+#[inline(always)]
+fn is_bounded(exponent: f64) -> bool {
+    exponent.abs() < 1e15
+}
+
+/// The patch that serves at all of the points, if one does: patches are convex in μ and w.
+#[inline(always)]
+fn common_patch(tier: &Tier, mu: &[f64], w: &[f64], exponent: &[f64]) -> Option<&'static Patch> {
+    let (mut least, mut most) = ([f64::MAX; 2], [0.0f64; 2]);
+    let mut bounded = true;
+    for ((&mu, &w), &exponent) in mu.iter().zip(w).zip(exponent) {
+        least = [if mu < least[0] { mu } else { least[0] }, if w < least[1] { w } else { least[1] }];
+        most = [if mu > most[0] { mu } else { most[0] }, if w > most[1] { w } else { most[1] }];
+        bounded &= is_bounded(exponent);
+    }
+    let number = tier.number_at(least[0], least[1]).filter(|_| bounded)?;
+    let others = [(least[0], most[1]), (most[0], least[1]), (most[0], most[1])];
+    let common = others.into_iter().all(|(mu, w)| tier.number_at(mu, w) == Some(number));
+    if common { tier.patch(number) } else { None }
 }
 
 /// The least number of points that a patch is evaluated at together. Twice as many still have their
@@ -138,21 +162,45 @@ fn lambert_w(z: f64) -> f64 {
     w
 }
 
-/// Multiplies by R at up to `BLOCK` places.
+/// Multiplies by R at up to `COUNT` places.
 #[inline(always)]
-fn correct<const BLOCK: usize>(patch: &Patch, places: &[u8], mu: &Lanes, w: &Lanes, batch: &mut Batch) {
-    let (mut p, mut q) = ([1.0; BLOCK], [1.0; BLOCK]);
-    for ((p, q), &place) in p.iter_mut().zip(&mut q).zip(places) {
-        *p = mu[usize::from(place)];
-        *q = w[usize::from(place)];
+fn correct<const COUNT: usize>(patch: &Patch, places: &[u8], mu: &Lanes, w: &Lanes, batch: &mut Batch) {
+    let (mut mu_there, mut w_there) = ([1.0; COUNT], [1.0; COUNT]);
+    for ((mu_there, w_there), &place) in mu_there.iter_mut().zip(&mut w_there).zip(places) {
+        *mu_there = mu[usize::from(place)];
+        *w_there = w[usize::from(place)];
     }
-    for (p, q) in p.iter_mut().zip(&mut q) {
-        *p = patch.p_scale / *p + patch.p_shift;
-        *q = patch.q_scale / (*q + patch.w_shift) + patch.q_shift;
+    let r = correction(patch, &mu_there, &w_there);
+    for (&r, &place) in r.iter().zip(places) {
+        batch.significand[usize::from(place)] *= r;
+        batch.truncation[usize::from(place)] = patch.error;
     }
-    let mut r = [0.0; BLOCK];
+}
+
+/// Multiplies by R at a run of places.
+#[inline(always)]
+fn correct_run(patch: &Patch, run: Range<usize>, mu: &Lanes, w: &Lanes, batch: &mut Batch) {
+    let (mut mu_there, mut w_there) = ([1.0; 2 * BLOCK], [1.0; 2 * BLOCK]);
+    mu_there[..run.len()].copy_from_slice(&mu[run.clone()]);
+    w_there[..run.len()].copy_from_slice(&w[run.clone()]);
+    let r = correction(patch, &mu_there, &w_there);
+    for (significand, &r) in batch.significand[run.clone()].iter_mut().zip(&r) {
+        *significand *= r;
+    }
+    batch.truncation[run].fill(patch.error);
+}
+
+/// R at each point.
+#[inline(always)]
+fn correction<const COUNT: usize>(patch: &Patch, mu: &[f64; COUNT], w: &[f64; COUNT]) -> [f64; COUNT] {
+    let (mut p, mut q) = ([0.0; COUNT], [0.0; COUNT]);
+    for place in 0..COUNT {
+        p[place] = patch.p_scale / mu[place] + patch.p_shift;
+        q[place] = patch.q_scale / (w[place] + patch.w_shift) + patch.q_shift;
+    }
+    let mut r = [0.0; COUNT];
     for row in patch.rows.iter().rev() {
-        let mut of_row = [0.0; BLOCK];
+        let mut of_row = [0.0; COUNT];
         for &coefficient in row.iter().rev() {
             for (sum, &q) in of_row.iter_mut().zip(&q) {
                 *sum = *sum * q + coefficient;
@@ -162,8 +210,5 @@ fn correct<const BLOCK: usize>(patch: &Patch, places: &[u8], mu: &Lanes, w: &Lan
             *r = *r * p + of_row;
         }
     }
-    for (&r, &place) in r.iter().zip(places) {
-        batch.significand[usize::from(place)] *= r;
-        batch.truncation[usize::from(place)] = patch.error;
-    }
+    r
 }

@@ -121,59 +121,86 @@ impl Places {
 fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
     let count = g.len().min(x.len()).min(LANES);
     let (g, x) = (&g[..count], &x[..count]);
-    let (mut first, mut rough_places) = (Places::none(), Places::none());
+    // Whether a point may be something else than one for the saddle; most batches have none.
+    let mut special = 0.0;
     for place in 0..count {
         let (g, x) = (g[place], x[place]);
-        let method = if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
-            Method::Auto
+        let ordinary = g >= 1e-140
+            && g <= 1e140
+            && 2.0 * (x / g) / g <= 1e250
+            && 0.25 * g > tier.truncation
+            && rough::bound(g, x) > tier.truncation;
+        special = if ordinary { special } else { 1.0 };
+    }
+    batch.method[..count].fill(Method::Uniform);
+    if special == 0.0 {
+        by_saddle::evaluate(tier, g, x, batch);
+        return;
+    }
+    let (mut first_places, mut rough_places, mut rest) = (Places::none(), Places::none(), Places::none());
+    for place in 0..count {
+        let (g, x) = (g[place], x[place]);
+        if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
+            batch.method[place] = Method::Auto;
         } else if 0.25 * g <= tier.truncation
             && single_term::rest_to_first(single_term::second_to_first(g, x)) <= tier.truncation
         {
-            first.push(place);
-            Method::Smooth
+            first_places.push(place);
         } else if rough::bound(g, x) <= tier.truncation {
             rough_places.push(place);
-            Method::Rough
         } else {
-            // Or the sum.
-            Method::Uniform
-        };
-        batch.method[place] = method;
+            rest.push(place);
+        }
     }
-    if first.count + rough_places.count < count {
+    let forms = |form: fn(f64, f64) -> Form, method: Method| {
+        move |g: &[f64], x: &[f64], batch: &mut Batch| {
+            for place in 0..g.len().min(x.len()).min(LANES) {
+                batch.set(place, &form(g[place], x[place]));
+                batch.method[place] = method;
+            }
+        }
+    };
+    elsewhere(&first_places, g, x, batch, forms(first_term, Method::Smooth));
+    elsewhere(&rough_places, g, x, batch, forms(rough_form, Method::Rough));
+    elsewhere(&rest, g, x, batch, |g, x, batch| {
+        batch.method[..g.len()].fill(Method::Uniform);
         by_saddle::evaluate(tier, g, x, batch);
-    }
-    by(first_terms, &first, g, x, batch);
-    by(rough_forms, &rough_places, g, x, batch);
+    });
 }
 
-/// Evaluates `form` at some of the points.
+/// Evaluates some of a batch's points in a batch of their own.
 #[inline(always)]
-fn by(form: impl Fn(f64, f64) -> Form, places: &Places, g: &[f64], x: &[f64], batch: &mut Batch) {
+fn elsewhere(
+    places: &Places,
+    g: &[f64],
+    x: &[f64],
+    batch: &mut Batch,
+    evaluate: impl Fn(&[f64], &[f64], &mut Batch),
+) {
+    if places.count == 0 {
+        return;
+    }
     let (mut g_there, mut x_there) = ([0.0; LANES], [0.0; LANES]);
     for ((g_there, x_there), &place) in g_there.iter_mut().zip(&mut x_there).zip(places.all()) {
         *g_there = g[usize::from(place)];
         *x_there = x[usize::from(place)];
     }
-    let mut forms = Batch::new();
-    for place in 0..places.count.min(LANES) {
-        forms.set(place, &form(g_there[place], x_there[place]));
-    }
-    for (place, &there) in places.all().iter().enumerate() {
-        let form = Form {
-            significand: forms.significand[place],
-            exponent: forms.exponent[place],
-            truncation: forms.truncation[place],
-            condition_g: forms.condition_g[place],
-            condition_x: forms.condition_x[place],
-        };
-        batch.set(usize::from(there), &form);
+    let mut there = Batch::new();
+    evaluate(&g_there[..places.count], &x_there[..places.count], &mut there);
+    for (from, &to) in places.all().iter().enumerate() {
+        let to = usize::from(to);
+        batch.significand[to] = there.significand[from];
+        batch.exponent[to] = there.exponent[from];
+        batch.truncation[to] = there.truncation[from];
+        batch.condition_g[to] = there.condition_g[from];
+        batch.condition_x[to] = there.condition_x[from];
+        batch.method[to] = there.method[from];
     }
 }
 
 /// g e^{−(g + x)}, (48), where the second term is negligible.
 #[inline(always)]
-fn first_terms(g: f64, x: f64) -> Form {
+fn first_term(g: f64, x: f64) -> Form {
     let e = exp(-(g + x));
     // The second term is below 4 times the truncation asked for, so x is below 2 ln(4/g): no overflow.
     let ratio = 0.25 * g * exp(0.5 * x).value();
@@ -188,7 +215,7 @@ fn first_terms(g: f64, x: f64) -> Form {
 
 /// e^{−y}/g, (49), y = x/g.
 #[inline(always)]
-fn rough_forms(g: f64, x: f64) -> Form {
+fn rough_form(g: f64, x: f64) -> Form {
     let y = x / g;
     let e = exp(-y);
     Form {

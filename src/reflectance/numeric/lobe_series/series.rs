@@ -211,7 +211,7 @@ fn exponent(m: f64, g: f64, x: f64) -> f64 {
 }
 
 /// m ln(m/g) − m + g without cancellation: Loader's expansion in v = (m − g)/(m + g) near m = g.
-fn deviance(m: f64, g: f64) -> f64 {
+pub(super) fn deviance(m: f64, g: f64) -> f64 {
     let (difference, sum) = (m - g, m + g);
     if difference.abs() >= 0.1 * sum {
         // m/g overflows for a subnormal g.
