@@ -86,6 +86,9 @@ impl Batch {
     }
 }
 
+/// Exponents from here on are left to the sum, which knows what their rounding does.
+const LARGEST_EXPONENT: f64 = 1e14;
+
 vectorized! {
     /// S at the points (`g`, `x`), equally many of each and at most [`LANES`], up to `tier`'s truncation.
     ///
@@ -146,7 +149,7 @@ fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
             && single_term::rest_to_first(single_term::second_to_first(g, x)) <= tier.truncation
         {
             first_places.push(place);
-        } else if rough::bound(g, x) <= tier.truncation {
+        } else if rough::bound(g, x) <= tier.truncation && x / g < LARGEST_EXPONENT {
             rough_places.push(place);
         } else {
             rest.push(place);
