@@ -37,7 +37,7 @@ pub enum Method {
     Series,
     /// The first 100 terms, as the authors did (section 4.1.5).
     Paper,
-    /// Saddle-point expansion to order 4, uniform in g and x.
+    /// Saddle-point form, uniform in g and x.
     Uniform,
     /// The first term alone: (38), (48) with the exponential restored (errata E21).
     Smooth,
