@@ -3,7 +3,7 @@
 use crate::points::{Random, point};
 use reflectance::reflectance::estimate::Estimate;
 use reflectance::reflectance::numeric::dispatch::InstructionSet;
-use reflectance::reflectance::numeric::lobe_series::lanes::{self, Batch, LANES, Lanes};
+use reflectance::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES, Lanes};
 use reflectance::reflectance::numeric::lobe_series::patches::{self, Tier};
 use reflectance::reflectance::numeric::lobe_series::{LobeSeries, Method, between, evaluate};
 use reflectance::reflectance::numeric::scaled::Scaled;
@@ -146,7 +146,7 @@ impl Census {
         }
         let mut batch = Batch::new();
         for (tier, seen) in &mut self.tiers {
-            lanes::evaluate(InstructionSet::widest(), tier, g, x, &mut batch);
+            lanes::evaluate(InstructionSet::widest(), Choice::auto(tier), g, x, &mut batch);
             for (place, series) in series.iter().enumerate() {
                 let Some(value) = batch.get(place) else { continue };
                 compare(seen, g[place], x[place], &value, series);

@@ -8,6 +8,7 @@ use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
 use super::lambertian;
 use super::numeric::EPSILON;
+use super::numeric::lobe_series::lanes::Choice;
 use super::numeric::lobe_series::patches::{self, Tier};
 use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
@@ -167,12 +168,16 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// The roughness of a scene whose lobe series is left to `auto`, with the truncation it may have.
-    pub(super) fn series(&self) -> Option<(RelativeRoughness, &'static Tier)> {
+    /// The roughness of a scene whose lobe series is evaluated in batches, and by what.
+    pub(super) fn series(&self) -> Option<(RelativeRoughness, Choice<'static>)> {
         let is_needed = self.scene.parameters().model == Model::BeckmannSpizzichino
-            && self.method == Method::Auto
             && self.scene.evaluated().contains(&Component::SpecularLobe);
-        self.roughness.filter(|_| is_needed).map(|roughness| (roughness, self.tier))
+        let choice = match self.method {
+            Method::Auto => Choice::auto(self.tier),
+            Method::Uniform => Choice::uniform(),
+            Method::Series | Method::Paper | Method::Smooth | Method::Rough => return None,
+        };
+        self.roughness.filter(|_| is_needed).map(|roughness| (roughness, choice))
     }
 
     /// What the directions have in common if the answer is nothing but the unshadowed lobe of a perfect conductor.
@@ -195,9 +200,14 @@ impl<'a> Kernel<'a> {
         self.roughness.map(|roughness| roughness.g(geometry))
     }
 
+    /// Whether a batch gives the best there is.
+    fn is_at_its_best(&self) -> bool {
+        self.tier.is_full() || self.method != Method::Auto
+    }
+
     /// Whether a bound keeps the tolerance, or no method could keep it.
     pub(super) fn is_enough(&self, bound: f64, rounding: f64) -> bool {
-        bound <= self.tolerance || rounding > self.tolerance || self.tier.is_full()
+        bound <= self.tolerance || rounding > self.tolerance || self.is_at_its_best()
     }
 
     /// The evaluated components in one direction, from a value of S that is good enough for the tolerance in most
@@ -205,7 +215,7 @@ impl<'a> Kernel<'a> {
     pub(super) fn reflect(&self, geometry: &Geometry, series: Option<LobeSeries>) -> Reflection {
         if let Some(series) = series {
             let reflection = self.reflect_by(geometry, Some(&series));
-            if self.tier.is_full() || reflection.total.relative_error() <= self.tolerance {
+            if self.is_at_its_best() || reflection.total.relative_error() <= self.tolerance {
                 return reflection;
             }
         }

@@ -166,8 +166,8 @@ mod tests {
     const OF_LIBM: f64 = 2.0;
 
     fn near(got: f64, expected: f64, units: f64, at: f64) {
-        let error = (got - expected).abs() / (expected.abs() * EPSILON);
-        assert!(error <= units + OF_LIBM, "{at}: {got} {expected} {error}");
+        let room = (units + OF_LIBM) * EPSILON * expected.abs();
+        assert!((got - expected).abs() <= room, "{at}: {got} {expected}");
     }
 
     #[test]

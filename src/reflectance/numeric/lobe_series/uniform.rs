@@ -3,11 +3,8 @@
 //! S ≈ e^ψ/(μ √w) (1 + c₁/μ + c₂/μ² + c₃/μ³ + c₄/μ⁴),  ψ = g (expm1 u − 2u e^u),
 //!
 //! uniformly in x; at x = 0 it is 1/g + 1/g² + 2/g³ + 6/g⁴ + 24/g⁵, and (49) is its u → 0 limit.
-//!
-//! Where the polynomials of [`patches`] know the last factor R to all digits they take its place.
 
 use super::between::Enclosure;
-use super::patches::{self, Patch};
 use super::saddle::Saddle;
 use super::{LobeSeries, Method, rounding};
 use crate::reflectance::estimate::Estimate;
@@ -126,16 +123,9 @@ fn to_order(order: usize, truncation: f64, g: f64, x: f64, saddle: &Saddle) -> L
     LobeSeries { estimate, condition_g, condition_x, method: Method::Uniform }
 }
 
-/// The leading term with the best R there is, wherever it is asked for: a polynomial, or the expansion to
-/// the order of least error.
+/// The expansion to the order of least error, wherever it is asked for.
 pub(super) fn at_its_best(g: f64, x: f64) -> LobeSeries {
     let saddle = Saddle::of(g, x);
-    let full = &patches::FULL;
-    if let Some(patch) = full.number_at(saddle.mu, saddle.w).and_then(|number| full.patch(number)) {
-        let value = leading_term(g, x, &saddle) * polynomial(patch, &saddle);
-        let (condition_g, condition_x) = conditions(g, x, &saddle);
-        return LobeSeries::converged(value, patch.error, condition_g, condition_x, Method::Uniform);
-    }
     let (order, remainder) = (0..=LAST)
         .map(|order| (order, remainder(order, &saddle)))
         .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best });
@@ -146,13 +136,6 @@ pub(super) fn at_its_best(g: f64, x: f64) -> LobeSeries {
     let value = leading_term(g, x, &saddle) * correction(order, &saddle);
     let (condition_g, condition_x) = conditions(g, x, &saddle);
     Enclosure::at(g, x, &saddle).judge(value, rounding(condition_g, condition_x), Method::Uniform)
-}
-
-/// R by a patch.
-fn polynomial(patch: &Patch, saddle: &Saddle) -> f64 {
-    let p = patch.p_scale / saddle.mu + patch.p_shift;
-    let q = patch.q_scale / (saddle.w + patch.w_shift) + patch.q_shift;
-    patch.rows.iter().rev().fold(0.0, |sum, row| sum * p + horner(row, q))
 }
 
 /// S between the ends that the expansion to order 4 leaves, where it [`serves`].
