@@ -149,7 +149,12 @@ impl Census {
             lanes::evaluate(InstructionSet::widest(), Choice::auto(tier), g, x, &mut batch);
             for (place, series) in series.iter().enumerate() {
                 let Some(value) = batch.get(place) else { continue };
-                compare(seen, g[place], x[place], &value, series);
+                let ratio = compare(seen, g[place], x[place], &value, series);
+                // The closed forms are the named methods'.
+                let own = !matches!(value.method, Method::Smooth | Method::Rough);
+                if let Some(ratio) = ratio.filter(|_| own) {
+                    seen.ratio(g[place], x[place], ratio);
+                }
                 if batch.truncation[place] > tier.truncation {
                     seen.violation(g[place], x[place], "more is left out than asked");
                 }
@@ -160,7 +165,9 @@ impl Census {
     fn look_at(&mut self, g: f64, x: f64, series: &LobeSeries) {
         for (method, seen) in &mut self.methods {
             let value = evaluate(*method, g, x);
-            compare(seen, g, x, &value, series);
+            if let Some(ratio) = compare(seen, g, x, &value, series) {
+                seen.ratio(g, x, ratio);
+            }
         }
         let (low, high) = between(g, x);
         let Estimate { value, error, least } = series.estimate;
@@ -174,11 +181,12 @@ impl Census {
     }
 }
 
-fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSeries) {
+/// Notes what is wrong; the ratio of bound to error where the method serves.
+fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSeries) -> Option<f64> {
     let (mine, exact) = (value.estimate, series.estimate);
     if mine.value.is_nan() || mine.error.is_nan() || mine.least.is_nan() {
         seen.violation(g, x, "not a number");
-        return;
+        return None;
     }
     let off = mine.value.distance(exact.value);
     if above(off, mine.error + exact.error) {
@@ -193,9 +201,8 @@ fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSer
         seen.violation(g, x, "a condition is understated");
     }
     let (bound, error) = (mine.relative_error(), (off / exact.value).to_f64());
-    if bound <= USEFUL && error > ROUNDING.max(4.0 * exact.relative_error()) {
-        seen.ratio(g, x, bound / error);
-    }
+    let serves = bound <= USEFUL && error > ROUNDING.max(4.0 * exact.relative_error());
+    serves.then(|| bound / error)
 }
 
 /// Whether `a` is above `b`.
