@@ -1,7 +1,7 @@
 //! The only list of routes: routing and document both come from it.
 
 use super::Limits;
-use super::api::{diagrams, documents, figures, health, image_irradiance, radiance, roughness};
+use super::api::{diagrams, documents, figures, health, image_irradiance, plan, radiance, roughness};
 use super::openapi;
 use super::problem::Problem;
 use super::track::not_found;
@@ -15,6 +15,7 @@ fn documented() -> OpenApiRouter<Limits> {
     OpenApiRouter::with_openapi(openapi::information())
         .routes(routes!(radiance::radiance))
         .routes(routes!(radiance::brdf))
+        .routes(routes!(plan::plan))
         .routes(routes!(diagrams::link, diagrams::diagram))
         .routes(routes!(image_irradiance::image_irradiance))
         .routes(routes!(figures::index))

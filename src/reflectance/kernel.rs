@@ -1,8 +1,8 @@
 //! A scene made ready: what does not depend on the direction is worked out once, what does is
 //! evaluated without allocating.
 
+use super::beckmann_spizzichino::RelativeRoughness;
 use super::beckmann_spizzichino::lanes::Common;
-use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::estimate::Estimate;
 use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
@@ -13,11 +13,11 @@ use super::numeric::lobe_series::patches::{self, Tier};
 use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
 use super::quantity::{SpecularScale, Wavelength};
-use super::radiometry::Camera;
-use super::scene::{Component, Model, Scene, Sensor};
+use super::scene::{Component, Model, Scene};
 use super::shadowing::Shadowing;
 use super::torrance_sparrow::{self, FacetLobe};
 use super::unified;
+use super::view::View;
 
 /// Radiance `L_r` (2), BRDF `f_r = L_r/I_s` (3), or what an image of the surface receives, (51).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,31 +117,17 @@ pub(super) struct Kernel<'a> {
     view: Option<View>,
     facets: Option<FacetLobe>,
     method: Method,
+    /// What the components left out leave of it.
     tolerance: f64,
     /// What `auto` may leave of the series.
     tier: &'static Tier,
 }
 
-/// The sensor, its lengths over the wavelength.
-#[derive(Clone, Copy)]
-enum View {
-    Patch(Patch),
-    /// The patch follows for each θ_r.
-    Camera {
-        optics: Camera,
-        wavelength: f64,
-    },
-}
-
 impl<'a> Kernel<'a> {
-    pub(super) fn new(scene: &'a Scene, quantity: Quantity) -> Self {
+    /// The scene is evaluated in its components; `omitted_share` bounds what the others would add, relative.
+    pub(super) fn new(scene: &'a Scene, quantity: Quantity, omitted_share: f64) -> Self {
         let p = scene.parameters();
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
-        let roughness = p.surface.rms_height.zip(wavelength).map(|(height, wavelength)| RelativeRoughness {
-            height: height.get() / wavelength,
-            // Only the height lobe reads it, and a scene with one has a correlation length.
-            correlation_length: p.surface.correlation_length.map_or(0.0, |t| t.get() / wavelength),
-        });
         let shadowing = scene.shadowing();
         Self {
             scene,
@@ -150,7 +136,7 @@ impl<'a> Kernel<'a> {
             medium: p.surface.medium,
             polarization: p.illumination.polarization,
             shadowing,
-            roughness,
+            roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
             facets: scene.facet_slope_radians.map(|sigma_alpha| FacetLobe {
                 sigma_alpha,
@@ -163,7 +149,7 @@ impl<'a> Kernel<'a> {
                 shadowing,
             }),
             method: p.accuracy.method,
-            tolerance: p.accuracy.relative_tolerance.get(),
+            tolerance: p.accuracy.relative_tolerance.get() - omitted_share,
             tier: patches::within(p.accuracy.relative_tolerance.get()),
         }
     }
@@ -303,7 +289,7 @@ impl<'a> Kernel<'a> {
 
     /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.
     fn spike(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
-        let patch = self.view?.patch(geometry);
+        let patch = self.view?.patch(geometry.cos_r);
         let power = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => geometry.cos_i * geometry.cos_i,
             Quantity::Brdf => geometry.cos_i,
@@ -334,31 +320,6 @@ impl<'a> Kernel<'a> {
                 self.shadowing.factor_over_cos_r(geometry)
             }
             Quantity::Brdf => self.shadowing.factor_over_cosines(geometry),
-        }
-    }
-}
-
-impl View {
-    fn new(sensor: Sensor, wavelength: f64) -> Self {
-        match sensor {
-            Sensor::Patch { footprint, half_x, half_y } => Self::Patch(Patch {
-                footprint: Scaled::new(footprint.get()) / Scaled::new(wavelength).squared(),
-                half_x: half_x.get() / wavelength,
-                half_y: half_y.get() / wavelength,
-            }),
-            Sensor::Camera(camera) => Self::Camera { optics: camera.optics(), wavelength },
-        }
-    }
-
-    /// A camera's A = footprint/cos θ_r and X = Y = √A/2 (errata E18).
-    fn patch(self, geometry: &Geometry) -> Patch {
-        match self {
-            Self::Patch(patch) => patch,
-            Self::Camera { optics, wavelength } => {
-                let half = optics.half_side(geometry.cos_r) / wavelength;
-                let footprint = optics.footprint() / Scaled::new(wavelength).squared();
-                Patch { footprint, half_x: half, half_y: half }
-            }
         }
     }
 }

@@ -12,6 +12,7 @@
 mod between;
 mod by_saddle;
 mod direct;
+mod envelope;
 pub mod lanes;
 pub mod patches;
 mod rough;
@@ -21,6 +22,8 @@ mod single_term;
 #[cfg(test)]
 mod tests;
 mod uniform;
+
+pub use envelope::{envelope, variance};
 
 use super::EPSILON;
 use super::dispatch::InstructionSet;

@@ -5,7 +5,8 @@ use super::super::{Method, evaluate as one};
 use super::{Batch, Choice, LANES, evaluate};
 use crate::reflectance::numeric::dispatch::InstructionSet;
 
-/// g from 1e-18 to 1e18 and x/g from 1e-9 to 1e9, evenly spread in their logarithms (xorshift64).
+/// g from 1e-32 to 1e18 and x/g from 1e-9 to 1e9 or x from 1e-3 to 1e3, evenly spread in their logarithms
+/// (xorshift64).
 fn points(seed: u64, count: usize) -> (Vec<f64>, Vec<f64>) {
     let mut state = seed | 1;
     let mut uniform = || {
@@ -14,9 +15,14 @@ fn points(seed: u64, count: usize) -> (Vec<f64>, Vec<f64>) {
         state ^= state << 17;
         (state >> 11) as f64 / (1u64 << 53) as f64
     };
-    let g: Vec<f64> = (0..count).map(|_| 10f64.powf(36.0 * uniform() - 18.0)).collect();
-    let x = g.iter().map(|g| g * 10f64.powf(18.0 * uniform() - 9.0)).collect();
-    (g, x)
+    let log_uniform = |from: f64, to: f64, share: f64| 10f64.powf(from + (to - from) * share);
+    let point = |_| {
+        let g = log_uniform(-32.0, 18.0, uniform());
+        let of_g = uniform() < 0.5;
+        let share = uniform();
+        (g, if of_g { g * log_uniform(-9.0, 9.0, share) } else { log_uniform(-3.0, 3.0, share) })
+    };
+    (0..count).map(point).unzip()
 }
 
 /// All that is said of each point; NaN where it is left.
