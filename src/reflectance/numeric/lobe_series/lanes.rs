@@ -86,6 +86,9 @@ impl Batch {
     }
 }
 
+/// Exponents from here on are left to the sum, which knows what their rounding does.
+const LARGEST_EXPONENT: f64 = 1e14;
+
 /// What a batch may be evaluated by.
 #[derive(Clone, Copy, Debug)]
 pub struct Choice<'a> {
@@ -169,7 +172,7 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
             && single_term::rest_to_first(single_term::second_to_first(g, x)) <= others
         {
             first_places.push(place);
-        } else if rough::bound(g, x) <= others {
+        } else if rough::bound(g, x) <= others && x / g < LARGEST_EXPONENT {
             rough_places.push(place);
         } else {
             rest.push(place);
