@@ -40,8 +40,8 @@ impl Block {
             let count = (range.end - first).min(LANES);
             directions.block(first, count, &mut self.directions);
             fill(self.set, &self.directions, &mut self.geometries);
-            if let Some((roughness, tier)) = kernel.series() {
-                self.lobe.expand(self.set, tier, roughness, &self.geometries, count);
+            if let Some((roughness, choice)) = kernel.series() {
+                self.lobe.expand(self.set, choice, roughness, &self.geometries, count);
             }
             match kernel.lobe_alone().filter(|_| !answer.has_logarithms()) {
                 Some(common) => self.lobe_alone(kernel, common, first, count, answer),

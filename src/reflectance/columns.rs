@@ -23,6 +23,8 @@ pub(super) struct Columns {
     pub(super) components: Vec<ComponentColumn>,
     pub(super) relative_error_bound: Vec<f64>,
     pub(super) diagnostics: Vec<Diagnostic>,
+    /// What the components left out may add to each total, relative; part of its bound.
+    pub(super) omitted_share: f64,
 }
 
 /// The total of one direction.
@@ -48,13 +50,14 @@ impl Columns {
                 .collect(),
             relative_error_bound: column(),
             diagnostics: Vec::new(),
+            omitted_share: 0.0,
         }
     }
 
     /// Adds directions in which one component is all there is, and an ordinary number.
     pub(super) fn extend(&mut self, values: &[f64], bounds: &[f64]) {
         self.total.extend_from_slice(values);
-        self.relative_error_bound.extend_from_slice(bounds);
+        self.relative_error_bound.extend(bounds.iter().map(|bound| bound + self.omitted_share));
         for column in &mut self.components {
             column.values.extend_from_slice(values);
         }
@@ -96,7 +99,7 @@ impl Columns {
             // All is lost, or there is nothing: no other error of a 0 is possible.
             if total == Estimate::ZERO { 0.0 } else { 1.0 }
         } else {
-            total.relative_error() + rounding_below_normal(total.value, value)
+            total.relative_error() + rounding_below_normal(total.value, value) + self.omitted_share
         };
         if !bound.is_finite() && total.value.is_finite() {
             note(index, DiagnosticCode::NoErrorBound, first_diagnostic, diagnostics);

@@ -5,6 +5,7 @@ use super::geometry::Geometry;
 use super::geometry::lanes::{AngleLanes, DirectionLanes};
 use super::numeric::lobe_series::lanes::LANES;
 use super::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
+use core::ops::Range;
 
 /// One angle for all directions, or one for each.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,19 @@ impl<A: Copy> Angles<A> {
         match self {
             Self::One(_) => None,
             Self::Each(angles) => Some(angles.len()),
+        }
+    }
+
+    /// Least and largest of some of them.
+    fn extent(&self, range: Range<usize>, get: impl Fn(A) -> f64) -> [f64; 2] {
+        match self {
+            Self::One(angle) => [get(*angle); 2],
+            Self::Each(angles) => {
+                angles[range].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], &angle| {
+                    let angle = get(angle);
+                    [if angle < least { angle } else { least }, if angle > largest { angle } else { largest }]
+                })
+            }
         }
     }
 
@@ -172,6 +186,15 @@ impl Directions {
     pub fn geometry(&self, index: usize) -> Geometry {
         let (theta_i, theta_r, phi_r) = self.angles(index);
         Geometry::new(theta_i, theta_r, phi_r)
+    }
+
+    /// The least and the largest θ_i, θ_r and φ_r, degrees as given, of a range of directions that is not empty.
+    pub(super) fn extents(&self, range: Range<usize>) -> [[f64; 2]; 3] {
+        [
+            self.theta_i.extent(range.clone(), SourceZenith::get),
+            self.theta_r.extent(range.clone(), ViewerZenith::get),
+            self.phi_r.extent(range, Azimuth::get),
+        ]
     }
 
     /// All geometries in order.

@@ -3,10 +3,12 @@
 use super::block::Block;
 use super::columns::Columns;
 use super::directions::Directions;
-use super::findings::{Diagnostic, DiagnosticCode, LISTED_INDICES, Omitted, Warning, WarningCode};
+use super::findings::{Concern, Diagnostic, DiagnosticCode, Omitted, Warning, WarningCode};
 use super::kernel::{Kernel, Reflection};
 use super::numeric::lobe_series::lanes::LANES;
-use super::scene::{Component, Components, Scene};
+use super::requirement::Requirement;
+use super::scene::Scene;
+use super::strain;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 pub use super::columns::ComponentColumn;
@@ -53,18 +55,21 @@ const PART: usize = 16 * LANES;
 ///
 /// A direction's answer does not depend on the others.
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
-    let kernel = Kernel::new(scene, quantity);
+    let Requirement { evaluated, omitted, share } = Requirement::of(scene, directions);
+    let needed = scene.with_only(&evaluated);
+    let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
+    let warnings = strain::warnings(scene, &needed, directions, &omitted);
     let part = |block: &mut Block, first: usize| {
         let end = count.min(first + PART);
-        let mut answer = Answer::new(scene, end - first, output);
+        let mut answer = Answer::new(&needed, end - first, output, share);
         block.evaluate(&kernel, directions, first..end, &mut answer);
         answer
     };
     if count <= PART {
-        return part(&mut Block::new(), 0).finish();
+        return part(&mut Block::new(), 0).finish(omitted, warnings);
     }
-    let mut whole = Answer::new(scene, count, output);
+    let mut whole = Answer::new(&needed, count, output, share);
     // A few parts a thread at a time, so that what is not yet in its place stays small.
     let at_once = 4 * PART * rayon::current_num_threads();
     for first in (0..count).step_by(at_once) {
@@ -74,7 +79,7 @@ pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, outp
             whole.append(part);
         }
     }
-    whole.finish()
+    whole.finish(omitted, warnings)
 }
 
 /// The answer while it is being made.
@@ -86,75 +91,27 @@ pub(super) struct Answer<'a> {
     counts: [usize; EvaluatedBy::ALL.len()],
     underflow: Concern,
     tolerance: Concern,
-    /// min g over the directions, while the spike is left out.
-    least_g: Option<f64>,
-    lacks_spike: bool,
-}
-
-/// Directions that a warning is about, and the largest value seen.
-#[derive(Default)]
-struct Concern {
-    indices: Vec<usize>,
-    count: usize,
-    largest: f64,
-}
-
-impl Concern {
-    fn add(&mut self, index: usize, value: f64) {
-        if self.indices.len() < LISTED_INDICES {
-            self.indices.push(index);
-        }
-        self.count += 1;
-        self.largest = self.largest.max(value);
-    }
-
-    /// Those of the directions that follow.
-    fn append(&mut self, next: &Self) {
-        let room = LISTED_INDICES - self.indices.len();
-        self.indices.extend(next.indices.iter().take(room));
-        self.count += next.count;
-        self.largest = self.largest.max(next.largest);
-    }
-
-    fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
-        (self.count > 0).then_some(Warning {
-            code,
-            value,
-            parameter: None,
-            indices: self.indices,
-            count: self.count,
-        })
-    }
 }
 
 impl<'a> Answer<'a> {
-    fn new(scene: &'a Scene, count: usize, output: Output) -> Self {
-        let p = scene.parameters();
-        let lacks_spike = p.components == Components::Auto
-            && p.model.components().contains(&Component::SpecularSpike)
-            && !scene.evaluated().contains(&Component::SpecularSpike);
+    fn new(scene: &'a Scene, count: usize, output: Output, omitted_share: f64) -> Self {
         Self {
             scene,
-            columns: Columns::new(scene.evaluated(), count, output.log10),
+            columns: Columns { omitted_share, ..Columns::new(scene.evaluated(), count, output.log10) },
             method: output.per_direction.then(|| Vec::with_capacity(count)),
             roughness_g: output.per_direction.then(|| Vec::with_capacity(count)),
             counts: [0; EvaluatedBy::ALL.len()],
             underflow: Concern::default(),
             tolerance: Concern::default(),
-            least_g: None,
-            lacks_spike,
         }
     }
 
-    /// Whether g is asked for, or tells how much the omitted spike carries.
+    /// Whether g is asked for.
     pub(super) fn needs_g(&self) -> bool {
-        self.roughness_g.is_some() || self.lacks_spike
+        self.roughness_g.is_some()
     }
 
     pub(super) fn push_g(&mut self, index: usize, g: Option<f64>) {
-        if let Some(g) = g {
-            self.least_g = Some(self.least_g.map_or(g, |least| least.min(g)));
-        }
         if let Some(column) = &mut self.roughness_g {
             column.push(g.unwrap_or(f64::NAN));
             if g.is_none() {
@@ -192,8 +149,10 @@ impl<'a> Answer<'a> {
             largest = if bound > largest { bound } else { largest };
             least = if value < least { value } else { least };
         }
-        if largest > tolerance || least == 0.0 {
+        let share = self.columns.omitted_share;
+        if largest + share > tolerance || least == 0.0 {
             for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
+                let bound = bound + share;
                 if bound > tolerance {
                     self.tolerance.add(first + place, bound);
                 }
@@ -224,7 +183,6 @@ impl<'a> Answer<'a> {
         }
         self.underflow.append(&next.underflow);
         self.tolerance.append(&next.tolerance);
-        self.least_g = self.least_g.into_iter().chain(next.least_g).reduce(f64::min);
     }
 
     fn count(&mut self, by: EvaluatedBy) {
@@ -234,24 +192,13 @@ impl<'a> Answer<'a> {
         }
     }
 
-    fn finish(self) -> Evaluation {
-        let (mut omitted, mut warnings) = (Vec::new(), Vec::new());
+    fn finish(self, omitted: Vec<Omitted>, mut warnings: Vec<Warning>) -> Evaluation {
         let methods = EvaluatedBy::ALL.into_iter().zip(self.counts).filter(|(_, count)| *count > 0).collect();
-        let p = self.scene.parameters();
-        if self.lacks_spike {
-            omitted.push(Omitted {
-                component: Component::SpecularSpike,
-                bound: None,
-                reason: "the specular spike depends on the sensor's footprint and none was given",
-            });
-            let share = self.least_g.map(|g| libm::exp(-g));
-            if share.is_none_or(|share| share > p.accuracy.relative_tolerance.get()) {
-                warnings.push(Warning::of_scene(WarningCode::SpikeWithoutSensor, share, None));
-            }
-        }
-        let unused = self.scene.unused().into_iter();
-        warnings
-            .extend(unused.map(|name| Warning::of_scene(WarningCode::ParameterNotUsed, None, Some(name))));
+        warnings.extend(strain::out_of_range(
+            self.scene,
+            &self.columns.total,
+            &self.columns.relative_error_bound,
+        ));
         let largest = self.tolerance.largest;
         warnings.extend(
             self.tolerance
@@ -259,7 +206,7 @@ impl<'a> Answer<'a> {
                 .into_iter()
                 .chain(self.underflow.warning(WarningCode::Underflow, None)),
         );
-        let Columns { total, log10_total, components, relative_error_bound, diagnostics } = self.columns;
+        let Columns { total, log10_total, components, relative_error_bound, diagnostics, .. } = self.columns;
         Evaluation {
             total,
             log10_total,

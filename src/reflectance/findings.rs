@@ -43,6 +43,42 @@ impl Warning {
 /// Indices listed by one warning.
 pub const LISTED_INDICES: usize = 20;
 
+/// Directions that a warning is about, and the largest value seen.
+#[derive(Default)]
+pub(super) struct Concern {
+    indices: Vec<usize>,
+    count: usize,
+    pub(super) largest: f64,
+}
+
+impl Concern {
+    pub(super) fn add(&mut self, index: usize, value: f64) {
+        if self.indices.len() < LISTED_INDICES {
+            self.indices.push(index);
+        }
+        self.count += 1;
+        self.largest = self.largest.max(value);
+    }
+
+    /// Those of the directions that follow.
+    pub(super) fn append(&mut self, next: &Self) {
+        let room = LISTED_INDICES - self.indices.len();
+        self.indices.extend(next.indices.iter().take(room));
+        self.count += next.count;
+        self.largest = self.largest.max(next.largest);
+    }
+
+    pub(super) fn warning(self, code: WarningCode, value: Option<f64>) -> Option<Warning> {
+        (self.count > 0).then_some(Warning {
+            code,
+            value,
+            parameter: None,
+            indices: self.indices,
+            count: self.count,
+        })
+    }
+}
+
 /// The warnings there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WarningCode {
@@ -54,9 +90,41 @@ pub enum WarningCode {
     SpikeWithoutSensor,
     /// A parameter was given that the model does not use.
     ParameterNotUsed,
+    /// The surface is not locally flat, section 4.1.3.
+    KirchhoffCurvature,
+    /// Facets on a surface whose heights are below geometrical optics, section 4.2.3.
+    HeightBelowGeometricalOptics,
+    /// The patch holds few correlation lengths.
+    PatchNotLarge,
+    /// Facets hide each other and the model in force does not say so.
+    ShadowingSignificant,
+    /// Light meets the surface more than once.
+    MultipleScatteringSignificant,
+    /// The components reflect more than arrives.
+    EnergyAboveOne,
+    /// (79) on steep slopes.
+    SmallSlopesViolated,
+    /// A named method far from where it serves.
+    MethodOutOfRange,
 }
 
 impl WarningCode {
+    /// Every code, in the order in which answers list them.
+    pub const ALL: [Self; 12] = [
+        Self::SpikeWithoutSensor,
+        Self::ParameterNotUsed,
+        Self::KirchhoffCurvature,
+        Self::HeightBelowGeometricalOptics,
+        Self::PatchNotLarge,
+        Self::SmallSlopesViolated,
+        Self::ShadowingSignificant,
+        Self::MultipleScatteringSignificant,
+        Self::EnergyAboveOne,
+        Self::MethodOutOfRange,
+        Self::ToleranceNotMet,
+        Self::Underflow,
+    ];
+
     /// The code in answers.
     pub const fn name(self) -> &'static str {
         match self {
@@ -64,7 +132,20 @@ impl WarningCode {
             Self::Underflow => "underflow",
             Self::SpikeWithoutSensor => "spike_without_sensor",
             Self::ParameterNotUsed => "parameter_not_used",
+            Self::KirchhoffCurvature => "kirchhoff_curvature",
+            Self::HeightBelowGeometricalOptics => "height_below_geometrical_optics",
+            Self::PatchNotLarge => "patch_not_large",
+            Self::ShadowingSignificant => "shadowing_significant",
+            Self::MultipleScatteringSignificant => "multiple_scattering_significant",
+            Self::EnergyAboveOne => "energy_above_one",
+            Self::SmallSlopesViolated => "small_slopes_violated",
+            Self::MethodOutOfRange => "method_out_of_range",
         }
+    }
+
+    /// Whether it is known only once the values are.
+    pub(super) const fn depends_on_values(self) -> bool {
+        matches!(self, Self::MethodOutOfRange | Self::ToleranceNotMet | Self::Underflow)
     }
 
     /// What it means.
@@ -80,10 +161,43 @@ impl WarningCode {
             }
             Self::SpikeWithoutSensor => {
                 "the specular spike depends on the sensor and none was given: total is without it; value is \
-                 the largest share e^-g of the reflected energy that the spike carries"
+                 the largest share e^-g of the reflected energy that the spike can carry in these directions"
             }
             Self::ParameterNotUsed => {
                 "this parameter was given and has no effect on the components evaluated"
+            }
+            Self::KirchhoffCurvature => {
+                "the surface is not locally flat (section 4.1.3): with its radius of curvature r, 4π r cos θ′ is \
+                 below ten wavelengths in these directions; value is 4π r over the wavelength"
+            }
+            Self::HeightBelowGeometricalOptics => {
+                "a facet lobe on a surface whose heights are below the range of geometrical optics (section \
+                 4.2.3): value is σ_h over the wavelength, which should be 1.5 or more"
+            }
+            Self::PatchNotLarge => {
+                "the model wants A ≫ T², and in these directions the sensor sees fewer than 100 squares of the \
+                 correlation length: one patch can differ from the mean; value is the least A/T²"
+            }
+            Self::ShadowingSignificant => {
+                "facets hide each other and shadowing is none: 1 − G of a Gaussian surface (Smith) is above 0.1 in \
+                 these directions; value is 1 − G at their largest zeniths"
+            }
+            Self::MultipleScatteringSignificant => {
+                "the models reflect light once, and more than a tenth of what is reflected from these sources meets \
+                 the surface again; value is the largest such share, good to 0.03 (sources beyond 85° are judged at 85°)"
+            }
+            Self::EnergyAboveOne => {
+                "the components reflect more light from these sources than arrives: value is the largest directional \
+                 albedo, by a coarse quadrature over the facets that is good to 0.03 of it (sources beyond 85° are judged \
+                 at 85°)"
+            }
+            Self::SmallSlopesViolated => {
+                "facet_slope_deg follows from σ_h/T by (79), which holds for gentle slopes: above 0.1 the two models' \
+                 lobes differ by more than 3 % of their peak; value is σ_h/T"
+            }
+            Self::MethodOutOfRange => {
+                "the method asked for does not serve in these directions: the bound of its error is above 1, or null \
+                 where it is not finite; value is the largest"
             }
         }
     }

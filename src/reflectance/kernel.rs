@@ -1,22 +1,23 @@
 //! A scene made ready: what does not depend on the direction is worked out once, what does is
 //! evaluated without allocating.
 
+use super::beckmann_spizzichino::RelativeRoughness;
 use super::beckmann_spizzichino::lanes::Common;
-use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::estimate::Estimate;
 use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
 use super::lambertian;
 use super::numeric::EPSILON;
+use super::numeric::lobe_series::lanes::Choice;
 use super::numeric::lobe_series::patches::{self, Tier};
 use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
 use super::quantity::{SpecularScale, Wavelength};
-use super::radiometry::Camera;
-use super::scene::{Component, Model, Scene, Sensor};
+use super::scene::{Component, Model, Scene};
 use super::shadowing::Shadowing;
 use super::torrance_sparrow::{self, FacetLobe};
 use super::unified;
+use super::view::View;
 
 /// Radiance `L_r` (2), BRDF `f_r = L_r/I_s` (3), or what an image of the surface receives, (51).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,31 +117,17 @@ pub(super) struct Kernel<'a> {
     view: Option<View>,
     facets: Option<FacetLobe>,
     method: Method,
+    /// What the components left out leave of it.
     tolerance: f64,
     /// What `auto` may leave of the series.
     tier: &'static Tier,
 }
 
-/// The sensor, its lengths over the wavelength.
-#[derive(Clone, Copy)]
-enum View {
-    Patch(Patch),
-    /// The patch follows for each θ_r.
-    Camera {
-        optics: Camera,
-        wavelength: f64,
-    },
-}
-
 impl<'a> Kernel<'a> {
-    pub(super) fn new(scene: &'a Scene, quantity: Quantity) -> Self {
+    /// The scene is evaluated in its components; `omitted_share` bounds what the others would add, relative.
+    pub(super) fn new(scene: &'a Scene, quantity: Quantity, omitted_share: f64) -> Self {
         let p = scene.parameters();
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
-        let roughness = p.surface.rms_height.zip(wavelength).map(|(height, wavelength)| RelativeRoughness {
-            height: height.get() / wavelength,
-            // Only the height lobe reads it, and a scene with one has a correlation length.
-            correlation_length: p.surface.correlation_length.map_or(0.0, |t| t.get() / wavelength),
-        });
         let shadowing = scene.shadowing();
         Self {
             scene,
@@ -149,7 +136,7 @@ impl<'a> Kernel<'a> {
             medium: p.surface.medium,
             polarization: p.illumination.polarization,
             shadowing,
-            roughness,
+            roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
             facets: scene.facet_slope_radians.map(|sigma_alpha| FacetLobe {
                 sigma_alpha,
@@ -162,17 +149,21 @@ impl<'a> Kernel<'a> {
                 shadowing,
             }),
             method: p.accuracy.method,
-            tolerance: p.accuracy.relative_tolerance.get(),
+            tolerance: p.accuracy.relative_tolerance.get() - omitted_share,
             tier: patches::within(p.accuracy.relative_tolerance.get()),
         }
     }
 
-    /// The roughness of a scene whose lobe series is left to `auto`, with the truncation it may have.
-    pub(super) fn series(&self) -> Option<(RelativeRoughness, &'static Tier)> {
+    /// The roughness of a scene whose lobe series is evaluated in batches, and by what.
+    pub(super) fn series(&self) -> Option<(RelativeRoughness, Choice<'static>)> {
         let is_needed = self.scene.parameters().model == Model::BeckmannSpizzichino
-            && self.method == Method::Auto
             && self.scene.evaluated().contains(&Component::SpecularLobe);
-        self.roughness.filter(|_| is_needed).map(|roughness| (roughness, self.tier))
+        let choice = match self.method {
+            Method::Auto => Choice::auto(self.tier),
+            Method::Uniform => Choice::uniform(),
+            Method::Series | Method::Paper | Method::Smooth | Method::Rough => return None,
+        };
+        self.roughness.filter(|_| is_needed).map(|roughness| (roughness, choice))
     }
 
     /// What the directions have in common if the answer is nothing but the unshadowed lobe of a perfect conductor.
@@ -195,9 +186,14 @@ impl<'a> Kernel<'a> {
         self.roughness.map(|roughness| roughness.g(geometry))
     }
 
+    /// Whether a batch gives the best there is.
+    fn is_at_its_best(&self) -> bool {
+        self.tier.is_full() || self.method != Method::Auto
+    }
+
     /// Whether a bound keeps the tolerance, or no method could keep it.
     pub(super) fn is_enough(&self, bound: f64, rounding: f64) -> bool {
-        bound <= self.tolerance || rounding > self.tolerance || self.tier.is_full()
+        bound <= self.tolerance || rounding > self.tolerance || self.is_at_its_best()
     }
 
     /// The evaluated components in one direction, from a value of S that is good enough for the tolerance in most
@@ -205,7 +201,7 @@ impl<'a> Kernel<'a> {
     pub(super) fn reflect(&self, geometry: &Geometry, series: Option<LobeSeries>) -> Reflection {
         if let Some(series) = series {
             let reflection = self.reflect_by(geometry, Some(&series));
-            if self.tier.is_full() || reflection.total.relative_error() <= self.tolerance {
+            if self.is_at_its_best() || reflection.total.relative_error() <= self.tolerance {
                 return reflection;
             }
         }
@@ -293,7 +289,7 @@ impl<'a> Kernel<'a> {
 
     /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.
     fn spike(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
-        let patch = self.view?.patch(geometry);
+        let patch = self.view?.patch(geometry.cos_r);
         let power = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => geometry.cos_i * geometry.cos_i,
             Quantity::Brdf => geometry.cos_i,
@@ -324,31 +320,6 @@ impl<'a> Kernel<'a> {
                 self.shadowing.factor_over_cos_r(geometry)
             }
             Quantity::Brdf => self.shadowing.factor_over_cosines(geometry),
-        }
-    }
-}
-
-impl View {
-    fn new(sensor: Sensor, wavelength: f64) -> Self {
-        match sensor {
-            Sensor::Patch { footprint, half_x, half_y } => Self::Patch(Patch {
-                footprint: Scaled::new(footprint.get()) / Scaled::new(wavelength).squared(),
-                half_x: half_x.get() / wavelength,
-                half_y: half_y.get() / wavelength,
-            }),
-            Sensor::Camera(camera) => Self::Camera { optics: camera.optics(), wavelength },
-        }
-    }
-
-    /// A camera's A = footprint/cos θ_r and X = Y = √A/2 (errata E18).
-    fn patch(self, geometry: &Geometry) -> Patch {
-        match self {
-            Self::Patch(patch) => patch,
-            Self::Camera { optics, wavelength } => {
-                let half = optics.half_side(geometry.cos_r) / wavelength;
-                let footprint = optics.footprint() / Scaled::new(wavelength).squared();
-                Patch { footprint, half_x: half, half_y: half }
-            }
         }
     }
 }

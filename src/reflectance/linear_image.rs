@@ -135,7 +135,7 @@ impl LinearScene {
             columns.push(index, &terms, Estimate::total(&terms));
             delta_on.push(image.delta_on);
         }
-        let Columns { total, log10_total, components, relative_error_bound, diagnostics } = columns;
+        let Columns { total, log10_total, components, relative_error_bound, diagnostics, .. } = columns;
         LinearEvaluation { total, log10_total, components, relative_error_bound, delta_on, diagnostics }
     }
 

@@ -1,6 +1,7 @@
 //! What a caller describes: surface, light, sensor, model. A [`Scene`] is checked as a whole when
 //! it is made; evaluating one cannot fail.
 
+use super::beckmann_spizzichino::RelativeRoughness;
 use super::degrees::SinCos;
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::Method;
@@ -178,6 +179,11 @@ impl Scene {
         &self.evaluated
     }
 
+    /// The same scene with these of its components only.
+    pub(super) fn with_only(&self, evaluated: &[Component]) -> Self {
+        Self { evaluated: evaluated.to_vec(), ..self.clone() }
+    }
+
     /// The parameters that were given and that no evaluated component reads, as clients know them.
     pub(super) fn unused(&self) -> Vec<&'static str> {
         let p = &self.parameters;
@@ -195,6 +201,17 @@ impl Scene {
         .into_iter()
         .filter_map(|(name, unused)| unused.then_some(name))
         .collect()
+    }
+
+    /// σ_h/λ and T/λ, where the scene has heights and a wavelength.
+    pub(super) fn relative_roughness(&self) -> Option<RelativeRoughness> {
+        let surface = &self.parameters.surface;
+        let (height, wavelength) = surface.rms_height.zip(self.parameters.illumination.wavelength)?;
+        Some(RelativeRoughness {
+            height: height.get() / wavelength.get(),
+            // Only the height lobe reads it, and a scene with one has a correlation length.
+            correlation_length: surface.correlation_length.map_or(0.0, |t| t.get() / wavelength.get()),
+        })
     }
 
     /// The shadowing in force: the caller's, or the model's default.

@@ -1,6 +1,8 @@
 //! Shadowing and masking of facets by their neighbours: the G of (65).
 
+use super::degrees::SinCos;
 use super::geometry::Geometry;
+use core::f64::consts::PI;
 
 /// How facets hide each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +73,17 @@ impl Shadowing {
     }
 }
 
+/// Smith's Λ for a surface of Gaussian slopes: the share 1/(1 + Λ) of the facets is seen from this direction. `width` is
+/// Beckmann's m = 2σ_h/T; 0 at normal incidence, infinite at grazing. Absolute error below 4 ε (1 + Λ).
+pub fn smith_lambda(direction: SinCos, width: f64) -> f64 {
+    let v = direction.cos / direction.sin / width;
+    if v > 6.0 {
+        // e^{−36}/(2√π v³) and less.
+        return 0.0;
+    }
+    (0.5 * (libm::exp(-v * v) / (PI.sqrt() * v) - libm::erfc(v))).max(0.0)
+}
+
 /// 2 cos α/cos θ′; none where v = 0.
 fn groove(geometry: &Geometry) -> Option<f64> {
     let length = geometry.length();
@@ -80,7 +93,8 @@ fn groove(geometry: &Geometry) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::Shadowing;
+    use super::{Shadowing, smith_lambda};
+    use crate::reflectance::degrees::SinCos;
     use crate::reflectance::geometry::Geometry;
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
 
@@ -126,5 +140,27 @@ mod tests {
         // Towards any other azimuth v does not vanish and the limit is 0.
         assert_eq!(Shadowing::VGroove.factor(&geometry(90.0, 90.0, 40.0)), 0.0);
         assert_eq!(Shadowing::VGroove.factor_over_cos_r(&geometry(90.0, 90.0, 40.0)), 0.0);
+    }
+
+    #[test]
+    fn lambda_makes_visible_facets_fill_the_view() {
+        // Σ of the projections of all facets turned to the viewer is (1 + Λ) cos θ; by the density of slopes p along the
+        // view, ∫ (cos θ + p sin θ)⁺ exp(−p²/m²)/(m√π) dp, which is Λ's definition.
+        for (theta, width) in [(30.0, 0.5), (60.0, 0.4), (80.0, 0.2), (89.0, 1.0), (45.0, 2.0)] {
+            let direction = SinCos::of_degrees(theta);
+            let steps = 200_000;
+            let step = 14.0 / f64::from(steps);
+            let projected: f64 = (0..steps)
+                .map(|i| -7.0 + step * (f64::from(i) + 0.5))
+                .map(|t| (direction.cos + direction.sin * width * t).max(0.0) * libm::exp(-t * t))
+                .sum::<f64>()
+                * step
+                / core::f64::consts::PI.sqrt();
+            let got = 1.0 + smith_lambda(direction, width);
+            // The midpoint rule at a kink: half a step squared.
+            assert!((got - projected / direction.cos).abs() < 1e-8 / direction.cos, "{theta} {width} {got}");
+        }
+        assert_eq!(smith_lambda(SinCos::of_degrees(0.0), 0.3), 0.0);
+        assert_eq!(smith_lambda(SinCos::of_degrees(90.0), 0.3), f64::INFINITY);
     }
 }

@@ -130,6 +130,14 @@ impl Line<'_> {
         }
     }
 
+    /// The same output once more, made in another way: a row of its own.
+    pub(crate) fn pair_by(&self, way: &str, output: &'static str, computed: f64, log10: f64, cint: f64) {
+        if let Some(Value::Number(exact)) = self.row.output(output) {
+            self.add(format!("{output} {way}"), computed, measure::units(computed, &exact, cint));
+            self.add(format!("log10 {output} {way}"), log10, measure::log_units(log10, &exact, cint));
+        }
+    }
+
     /// A number against a reference that takes the place of the oracle's.
     pub(crate) fn instead(&self, output: &'static str, computed: Scaled, reference: &Exact, cint: f64) {
         self.seen.borrow_mut().insert(output);

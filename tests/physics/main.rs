@@ -4,6 +4,7 @@ mod energy;
 mod hankel;
 mod invariance;
 mod limits;
+mod omission;
 
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::EPSILON;

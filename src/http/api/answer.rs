@@ -2,10 +2,11 @@
 
 use crate::http::encode::numbers::Numbers;
 use crate::reflectance::evaluate::{ComponentColumn, EvaluatedBy, Evaluation, Quantity};
-use crate::reflectance::findings::{Diagnostic, Omitted, Warning};
+use crate::reflectance::findings::{Diagnostic, Omitted, Warning, WarningCode};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
+use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
 
 /// Values in each direction, in the order of the request's arrays. A value that is infinite or undefined is null,
 /// and `diagnostics` says why. A value below the smallest 64-bit float is 0.
@@ -76,7 +77,9 @@ pub(crate) struct OmittedAnswer {
     /// Which.
     #[schema(example = "specular_spike")]
     component: &'static str,
-    /// What it could add to `total` at most, relative; null where it could not be computed.
+    /// What it could add to `total` at most, relative: the largest share over the directions, and part of
+    /// `relative_error_bound`. Of a spike without a sensor, whose radiance is not known: the largest share e^-g of the
+    /// reflected energy that it can carry, which is part of no bound; null without a height and a wavelength.
     bound: Option<f64>,
     /// Why it was left out.
     reason: &'static str,
@@ -87,7 +90,7 @@ pub(crate) struct OmittedAnswer {
 #[schema(as = Warning)]
 pub(crate) struct WarningAnswer {
     /// What, for programs.
-    #[schema(example = "tolerance_not_met")]
+    #[schema(schema_with = warning_codes)]
     code: &'static str,
     /// What, for people.
     detail: &'static str,
@@ -101,6 +104,18 @@ pub(crate) struct WarningAnswer {
     indices: Vec<usize>,
     /// How many directions are concerned.
     count: usize,
+}
+
+/// The codes that there are, each with what it means.
+fn warning_codes() -> Object {
+    let meanings: Vec<_> =
+        WarningCode::ALL.iter().map(|code| format!("- `{}`: {}", code.name(), code.detail())).collect();
+    ObjectBuilder::new()
+        .schema_type(Type::String)
+        .enum_values(Some(WarningCode::ALL.map(WarningCode::name)))
+        .description(Some(format!("What, for programs.\n\n{}", meanings.join("\n"))))
+        .examples(["tolerance_not_met"])
+        .build()
 }
 
 /// Why a value is null.

@@ -43,6 +43,13 @@ const PAPER: &str = r#"{"model": "beckmann_spizzichino",
  "geometry": {"theta_i_deg": 10, "theta_r_deg": 10},
  "accuracy": {"relative_tolerance": 1e-6, "method": "paper"}}"#;
 
+const MIRROR: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.0005, "correlation_length_um": 1, "medium": {"n": 1.37, "k": 7.62}},
+ "illumination": {"wavelength_um": 0.633},
+ "sensor": {"footprint_um2": 1e6, "patch_half_x_um": 500, "patch_half_y_um": 500},
+ "geometry": {"theta_i_deg": [0, 15, 30, 45], "theta_r_deg": [0, 15, 30, 45]},
+ "accuracy": {"relative_tolerance": 1e-6}}"#;
+
 const LAMBERTIAN: &str = r#"{"model": "lambertian", "surface": {"diffuse_albedo": 0.8},
  "illumination": {"irradiance": 3.141592653589793}, "geometry": {"theta_i_deg": 60, "theta_r_deg": 20}}"#;
 
@@ -96,6 +103,13 @@ pub(crate) const BODIES: &[Example] = &[
         FIRST,
     ),
     example("/v1/brdf", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+    example(
+        "/v1/plan",
+        "polished_metal",
+        "Is the lobe of a polished mirror needed in its mirror directions?",
+        MIRROR,
+    ),
+    example("/v1/plan", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
     example("/v1/tradeoff", "rough_conductor", "Every method on four directions of a rough conductor", FIRST),
     example("/v1/tradeoff", "camera", "The same trade with a spike beside the lobe", CAMERA),
     example("/v1/diagrams", "fixed_source", "BRDF over the viewing angle for four sources", DIAGRAM),

@@ -7,6 +7,7 @@ pub(super) mod examples;
 pub(super) mod figures;
 pub(super) mod health;
 pub(super) mod image_irradiance;
+pub(super) mod plan;
 pub(super) mod radiance;
 mod responses;
 pub(super) mod roughness;

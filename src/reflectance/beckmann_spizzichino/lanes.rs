@@ -6,8 +6,7 @@ use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::elementary::{binary_exponent, scale};
-use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, LANES, Lanes};
-use crate::reflectance::numeric::lobe_series::patches::Tier;
+use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES, Lanes};
 use crate::reflectance::numeric::lobe_series::{LobeSeries, Method, ROUNDING_UNITS};
 use core::f64::consts::PI;
 
@@ -56,13 +55,13 @@ impl LobeLanes {
     pub(in crate::reflectance) fn expand(
         &mut self,
         set: InstructionSet,
-        tier: &Tier,
+        choice: Choice<'_>,
         roughness: RelativeRoughness,
         geometries: &Geometries,
         count: usize,
     ) {
         arguments(set, roughness, geometries, &mut self.g[..count], &mut self.x[..count]);
-        lanes::evaluate(set, tier, &self.g[..count], &self.x[..count], &mut self.series);
+        lanes::evaluate(set, choice, &self.g[..count], &self.x[..count], &mut self.series);
     }
 
     /// S in one direction, unless the point is outside the batch's domain.

@@ -1,16 +1,17 @@
 //! The points of a batch that need the saddle: its position by Lambert's W, then R by a polynomial
 //! patch where the sum equals its integral, the sum itself where few terms matter.
 
-use super::lanes::{Batch, Form, LANES, Lanes, Places};
+use super::lanes::{Batch, Choice, Form, LANES, Lanes, Places};
 use super::patches::{MOST_PATCHES, Patch, Tier};
 use super::{Method, direct};
 use crate::reflectance::numeric::elementary::{exp, ln_1p_roughly};
 use core::ops::Range;
 
 /// Evaluates S at the points of [`Method::Uniform`], of which it may make points of [`Method::Series`], or of
-/// [`Method::Auto`] beyond the domain; what it leaves at the other points says nothing.
+/// [`Method::Auto`] beyond what it may do; what it leaves at the other points says nothing.
 #[inline(always)]
-pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
+pub(super) fn evaluate(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
+    let Choice { tier, uniform_only } = choice;
     let count = g.len().min(x.len()).min(LANES);
     let (mut mu, mut w) = ([0.0; LANES], [0.0; LANES]);
     for place in 0..count {
@@ -32,6 +33,7 @@ pub(super) fn evaluate(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
         match tier.number_at(mu[place], w[place]) {
             _ if !is_bounded(batch.exponent[place]) => batch.method[place] = Method::Auto,
             Some(number) => patched.add(place, number),
+            None if uniform_only => batch.method[place] = Method::Auto,
             None => {
                 few.push(place);
                 batch.method[place] = Method::Series;

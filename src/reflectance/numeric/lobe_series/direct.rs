@@ -22,6 +22,10 @@ struct Walk {
     inverse: Block,
     m: Block,
     term: Block,
+    /// Bound of what is left of the side that is being walked, over the sum.
+    left: Block,
+    /// A side with less left is done; its lane waits for the others.
+    enough: f64,
 }
 
 /// Sums around the largest term, near `mu`, until what is left out of either side is below a quarter of the
@@ -29,18 +33,17 @@ struct Walk {
 #[inline(always)]
 pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], mu: &Lanes, batch: &mut Batch) {
     for places in places.all().chunks(BLOCK) {
-        let mut walk = Walk::new();
+        let mut walk = Walk::new(0.25 * tier.truncation);
         for (lane, &place) in places.iter().enumerate() {
             let place = usize::from(place);
             walk.g[lane] = g[place];
             walk.x[lane] = x[place];
             walk.centre[lane] = mu[place].round().max(1.0);
         }
-        let enough = 0.25 * tier.truncation;
         walk.start();
-        while walk.up() > enough {}
+        while walk.up() {}
         walk.turn();
-        while walk.down() > enough {}
+        while walk.down() {}
         let mut remainder = [0.0; BLOCK];
         for (remainder, &centre) in remainder.iter_mut().zip(&walk.centre) {
             *remainder = stirling_remainder(centre);
@@ -67,9 +70,20 @@ pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], mu: &
 
 impl Walk {
     /// Lanes without a point walk through g = 1, x = 0.
-    const fn new() -> Self {
+    const fn new(enough: f64) -> Self {
         let (zero, one) = ([0.0; BLOCK], [1.0; BLOCK]);
-        Self { g: one, x: zero, centre: one, sum: one, first: zero, inverse: zero, m: one, term: one }
+        Self {
+            g: one,
+            x: zero,
+            centre: one,
+            sum: one,
+            first: zero,
+            inverse: zero,
+            m: one,
+            term: one,
+            left: zero,
+            enough,
+        }
     }
 
     #[inline(always)]
@@ -87,13 +101,12 @@ impl Walk {
     fn turn(&mut self) {
         self.m = self.centre;
         self.term = [1.0; BLOCK];
+        self.left = [f64::MAX; BLOCK];
     }
 
-    /// One term up in every lane; the largest share of a sum that is still above its last term: the terms are
-    /// log-concave, so what is left of a side is below t r/(1 − r), r the last ratio.
+    /// One term up in every lane that is not done; whether there is one.
     #[inline(always)]
-    fn up(&mut self) -> f64 {
-        let mut left = [0.0; BLOCK];
+    fn up(&mut self) -> bool {
         for lane in 0..BLOCK {
             let (g, m) = (self.g[lane], self.m[lane]);
             let inverse = 1.0 / (m * (m + 1.0));
@@ -101,28 +114,29 @@ impl Walk {
             // Next to the largest term the tilt makes up for m/g; 700 keeps what does not matter in range.
             let tilt = exp((self.x[lane] * inverse).min(700.0)).value();
             let ratio = g * tilt * (m * next_inverse * next_inverse);
-            left[lane] = self.add(lane, m + 1.0, next_inverse, ratio);
+            self.add(lane, m + 1.0, next_inverse, ratio);
         }
-        largest(&left)
+        self.goes_on()
     }
 
-    /// One term down in every lane that has one.
+    /// One term down in every lane that has one and is not done; whether there is one.
     #[inline(always)]
-    fn down(&mut self) -> f64 {
-        let mut left = [0.0; BLOCK];
+    fn down(&mut self) -> bool {
         for lane in 0..BLOCK {
             let (g, m) = (self.g[lane], self.m[lane]);
             let below = (m - 1.0).max(1.0);
             let below_inverse = 1.0 / below;
             let tilt = exp((-self.x[lane] * below_inverse / m).max(-700.0)).value();
             let ratio = if m > 1.0 { m * m * below_inverse / g * tilt } else { 0.0 };
-            left[lane] = self.add(lane, below, below_inverse, ratio);
+            self.add(lane, below, below_inverse, ratio);
         }
-        largest(&left)
+        self.goes_on()
     }
 
+    /// The terms are log-concave: what is left of a side is below t r/(1 − r), r the last ratio.
     #[inline(always)]
-    fn add(&mut self, lane: usize, m: f64, inverse: f64, ratio: f64) -> f64 {
+    fn add(&mut self, lane: usize, m: f64, inverse: f64, ratio: f64) {
+        let ratio = if self.left[lane] > self.enough { ratio } else { 0.0 };
         let term = self.term[lane] * ratio;
         self.m[lane] = m;
         self.term[lane] = term;
@@ -130,17 +144,17 @@ impl Walk {
         self.first[lane] += (m - self.g[lane]) * term;
         self.inverse[lane] += term * inverse;
         let left = term * ratio / (self.sum[lane] * (1.0 - ratio));
-        if ratio < 1.0 { left } else { f64::MAX }
+        self.left[lane] = if ratio < 1.0 { left } else { f64::MAX };
     }
-}
 
-#[inline(always)]
-fn largest(of: &Block) -> f64 {
-    let mut largest = 0.0;
-    for &value in of {
-        largest = if value > largest { value } else { largest };
+    #[inline(always)]
+    fn goes_on(&self) -> bool {
+        let mut most = 0.0;
+        for &left in &self.left {
+            most = if left > most { left } else { most };
+        }
+        most > self.enough
     }
-    largest
 }
 
 /// m ln(m/g) − m + g without cancellation: Loader's expansion in v = (m − g)/(m + g) near m = g.

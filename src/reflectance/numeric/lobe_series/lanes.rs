@@ -7,7 +7,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::patches::Tier;
+use super::patches::{self, Tier};
 use super::{LobeSeries, Method, by_saddle, rough, single_term};
 use crate::reflectance::numeric::dispatch::vectorized;
 use crate::reflectance::numeric::elementary::exp;
@@ -86,11 +86,32 @@ impl Batch {
     }
 }
 
+/// What a batch may be evaluated by.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice<'a> {
+    pub(super) tier: &'a Tier,
+    pub(super) uniform_only: bool,
+}
+
+impl<'a> Choice<'a> {
+    /// The cheapest method whose truncation is `tier`'s at most.
+    pub const fn auto(tier: &'a Tier) -> Self {
+        Self { tier, uniform_only: false }
+    }
+}
+
+impl Choice<'static> {
+    /// The patches of the finest tier; other points are left.
+    pub const fn uniform() -> Self {
+        Self { tier: &patches::FULL, uniform_only: true }
+    }
+}
+
 vectorized! {
-    /// S at the points (`g`, `x`), equally many of each and at most [`LANES`], up to `tier`'s truncation.
+    /// S at the points (`g`, `x`), equally many of each and at most [`LANES`].
     ///
     /// Domain of the vector path: 1e-140 ≤ g ≤ 1e140 and 2x/g² ≤ 1e250, |ln S| < 1e15.
-    pub fn evaluate = sorted, (tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch)
+    pub fn evaluate = sorted, (choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch)
 }
 
 /// Positions of some of a batch's points.
@@ -118,23 +139,25 @@ impl Places {
 }
 
 #[inline(always)]
-fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
+fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
+    let Choice { tier, uniform_only } = choice;
+    // Without other methods no truncation is enough for them.
+    let others = if uniform_only { -1.0 } else { tier.truncation };
     let count = g.len().min(x.len()).min(LANES);
     let (g, x) = (&g[..count], &x[..count]);
     // Whether a point may be something else than one for the saddle; most batches have none.
     let mut special = 0.0;
     for place in 0..count {
         let (g, x) = (g[place], x[place]);
-        let ordinary = g >= 1e-140
-            && g <= 1e140
+        let ordinary = (1e-140..=1e140).contains(&g)
             && 2.0 * (x / g) / g <= 1e250
-            && 0.25 * g > tier.truncation
-            && rough::bound(g, x) > tier.truncation;
+            && 0.25 * g > others
+            && rough::bound(g, x) > others;
         special = if ordinary { special } else { 1.0 };
     }
     batch.method[..count].fill(Method::Uniform);
     if special == 0.0 {
-        by_saddle::evaluate(tier, g, x, batch);
+        by_saddle::evaluate(choice, g, x, batch);
         return;
     }
     let (mut first_places, mut rough_places, mut rest) = (Places::none(), Places::none(), Places::none());
@@ -142,11 +165,11 @@ fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
         let (g, x) = (g[place], x[place]);
         if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
             batch.method[place] = Method::Auto;
-        } else if 0.25 * g <= tier.truncation
-            && single_term::rest_to_first(single_term::second_to_first(g, x)) <= tier.truncation
+        } else if 0.25 * g <= others
+            && single_term::rest_to_first(single_term::second_to_first(g, x)) <= others
         {
             first_places.push(place);
-        } else if rough::bound(g, x) <= tier.truncation {
+        } else if rough::bound(g, x) <= others {
             rough_places.push(place);
         } else {
             rest.push(place);
@@ -164,7 +187,7 @@ fn sorted(tier: &Tier, g: &[f64], x: &[f64], batch: &mut Batch) {
     elsewhere(&rough_places, g, x, batch, forms(rough_form, Method::Rough));
     elsewhere(&rest, g, x, batch, |g, x, batch| {
         batch.method[..g.len()].fill(Method::Uniform);
-        by_saddle::evaluate(tier, g, x, batch);
+        by_saddle::evaluate(choice, g, x, batch);
     });
 }
 

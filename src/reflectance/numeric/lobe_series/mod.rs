@@ -12,6 +12,7 @@
 mod between;
 mod by_saddle;
 mod direct;
+mod envelope;
 pub mod lanes;
 pub mod patches;
 mod rough;
@@ -22,22 +23,28 @@ mod single_term;
 mod tests;
 mod uniform;
 
+pub use envelope::{envelope, variance};
+
 use super::EPSILON;
+use super::dispatch::InstructionSet;
 use super::scaled::Scaled;
 use crate::reflectance::estimate::Estimate;
 pub use between::between;
+use lanes::{Batch, Choice};
+use patches::Tier;
 use saddle::Saddle;
 
 /// How the series is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The cheapest that is as accurate as f64 allows.
+    /// The cheapest that keeps the truncation asked for.
     Auto,
     /// Summed to convergence around the largest term.
     Series,
     /// The first 100 terms, as the authors did (section 4.1.5).
     Paper,
-    /// Saddle-point expansion to order 4, uniform in g and x.
+    /// Saddle-point form, uniform in g and x; its correction by polynomial patches, beyond them to the
+    /// order that serves best.
     Uniform,
     /// The first term alone: (38), (48) with the exponential restored (errata E21).
     Smooth,
@@ -102,7 +109,7 @@ fn rounding(condition_g: f64, condition_x: f64) -> f64 {
 /// Truncation that disappears in the rounding.
 const NEGLIGIBLE_TRUNCATION: f64 = 4.0 * EPSILON;
 
-/// S(g, x) by `method`.
+/// S(g, x) by `method`, at its best; by [`Method::Auto`] as well as the sum.
 ///
 /// A named method is used as asked, wherever it leads: its bound then says how far off it is.
 pub fn evaluate(method: Method, g: f64, x: f64) -> LobeSeries {
@@ -114,17 +121,32 @@ pub fn evaluate(method: Method, g: f64, x: f64) -> LobeSeries {
         };
     }
     match method {
-        Method::Auto => cheapest(g, x),
+        Method::Auto => evaluate_within(&patches::FULL, g, x),
         Method::Series => series::converged(g, x, &Saddle::of(g, x)),
         Method::Paper => series::first_hundred(g, x),
-        Method::Uniform => uniform::at_its_best(g, x),
+        Method::Uniform => alone(Choice::uniform(), g, x).unwrap_or_else(|| uniform::at_its_best(g, x)),
         Method::Smooth => single_term::smooth(g, x),
         Method::Rough => rough::rough(g, x),
     }
 }
 
-/// The cheapest method that is as good as the sum: one term, the saddle point, or the sum itself.
-fn cheapest(g: f64, x: f64) -> LobeSeries {
+/// S(g, x) by the cheapest method whose truncation is `tier`'s at most.
+pub fn evaluate_within(tier: &Tier, g: f64, x: f64) -> LobeSeries {
+    if g == 0.0 {
+        return LobeSeries::zero(Method::Series);
+    }
+    alone(Choice::auto(tier), g, x).unwrap_or_else(|| beyond_the_batch(g, x))
+}
+
+/// A batch of one point; none where it is left to the methods for one point.
+fn alone(choice: Choice<'_>, g: f64, x: f64) -> Option<LobeSeries> {
+    let mut batch = Batch::new();
+    lanes::evaluate(InstructionSet::Portable, choice, &[g], &[x], &mut batch);
+    batch.get(0)
+}
+
+/// As good as the sum where g or x is beyond the batch's domain: one term, the saddle point, or the sum itself.
+fn beyond_the_batch(g: f64, x: f64) -> LobeSeries {
     if single_term::second_to_first(g, x) <= NEGLIGIBLE_TRUNCATION {
         return single_term::smooth(g, x);
     }

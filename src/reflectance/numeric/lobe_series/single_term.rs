@@ -32,11 +32,11 @@ pub(super) fn second_to_first(g: f64, x: f64) -> f64 {
     g * (0.25 * libm::exp(0.5 * x))
 }
 
-/// Bound of all further terms over the first, for r < 9/8.
+/// Bound of all further terms over the first; none, infinity, from r = 1 on.
 ///
 /// The ratios of neighbours fall (the terms are log-concave), so the rest is below r/(1 − r₂), and
 /// r₂ = (2g/9) e^{x/6} ≤ 8r/9.
 #[inline(always)]
 pub(super) fn rest_to_first(ratio: f64) -> f64 {
-    ratio / (1.0 - 8.0 / 9.0 * ratio)
+    if ratio < 1.0 { ratio / (1.0 - 8.0 / 9.0 * ratio) } else { f64::INFINITY }
 }

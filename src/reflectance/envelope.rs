@@ -1,0 +1,241 @@
+//! How large a component can be over a region of directions, and how small: its logarithm from both sides at a fraction
+//! of the price of its value.
+//!
+//! All are radiances over the irradiance, before what the specular components have in common where only they are
+//! compared: F′ of (41) and (71) is the same number for spike and lobe.
+
+use super::beckmann_spizzichino::{Patch, RelativeRoughness};
+use super::fresnel::{Medium, Polarization};
+use super::numeric::lobe_series::envelope;
+use super::quantity::{SpecularScale, Wavelength};
+use super::region::{Region, Span};
+use super::scene::{Component, Model, Scene};
+use super::shadowing::Shadowing;
+use super::view::View;
+use super::{torrance_sparrow, unified};
+use core::f64::consts::{FRAC_1_PI, FRAC_PI_4, PI};
+
+/// A component's logarithm is −∞ here: it is exactly 0.
+pub(super) const NOTHING: Span = Span { least: f64::NEG_INFINITY, most: f64::NEG_INFINITY };
+/// Nothing is known.
+const UNKNOWN: Span = Span { least: f64::NEG_INFINITY, most: f64::INFINITY };
+/// Rounding of a sum of logarithms, relative to its largest term: a dozen operations of a few ε each.
+const SLACK: f64 = 1e-13;
+/// |d ln S/d ln g| is not above this where it is negative: −1.3 at x = 0, and it grows with x.
+const STEEPEST: f64 = 1.5;
+
+/// What the bounds need of a scene.
+pub(super) struct Envelopes {
+    model: Model,
+    shadowing: Shadowing,
+    diffuse_albedo: f64,
+    medium: Medium,
+    polarization: Polarization,
+    /// F′ is common to the components compared, or 1.
+    without_fresnel: bool,
+    roughness: Option<RelativeRoughness>,
+    view: Option<View>,
+    /// σ_α and ln(c a_f/4).
+    facets: Option<(f64, f64)>,
+    /// Whether the facet lobe carries 1 − e^{−g}.
+    shares: bool,
+}
+
+impl Envelopes {
+    /// For comparing `components` with each other.
+    pub(super) fn new(scene: &Scene, components: &[Component]) -> Self {
+        let p = scene.parameters();
+        let surface = &p.surface;
+        let wavelength = p.illumination.wavelength.map(Wavelength::get);
+        let diffuse = components.contains(&Component::DiffuseLobe);
+        Self {
+            model: p.model,
+            shadowing: scene.shadowing(),
+            diffuse_albedo: surface.diffuse_albedo.get(),
+            medium: surface.medium,
+            polarization: p.illumination.polarization,
+            without_fresnel: !diffuse || surface.medium == Medium::PerfectConductor,
+            roughness: scene.relative_roughness(),
+            view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
+            facets: scene.facet_slope_radians.map(|sigma_alpha| {
+                let scale = surface
+                    .specular_scale
+                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), SpecularScale::get);
+                (sigma_alpha, libm::log(0.25 * scale))
+            }),
+            shares: p.model == Model::Unified && surface.specular_scale.is_none(),
+        }
+    }
+
+    /// The natural logarithm of a component from below and from above.
+    pub(super) fn of(&self, component: Component, region: &Region) -> Span {
+        if region.cos_sum.most == 0.0 {
+            return UNKNOWN;
+        }
+        let bounds = match component {
+            Component::DiffuseLobe => {
+                sum(&[constant(libm::log(self.diffuse_albedo * FRAC_1_PI)), region.cos_i.ln()])
+            }
+            Component::SpecularLobe if self.model == Model::BeckmannSpizzichino => self.height_lobe(region),
+            Component::SpecularLobe => self.facet_lobe(region),
+            Component::SpecularSpike => self.spike(region),
+        };
+        // A NaN is a limit that depends on the path.
+        if bounds.least.is_nan() || bounds.most.is_nan() { UNKNOWN } else { bounds }
+    }
+
+    /// ln F′: of one direction its value, of many only that it is not above 1.
+    fn reflectance(&self, region: &Region) -> Span {
+        if self.without_fresnel {
+            return constant(0.0);
+        }
+        let Some(geometry) = region.direction else { return Span { most: 0.0, ..UNKNOWN } };
+        let energy = self.medium.reflectance(geometry.local_incidence(), self.polarization);
+        let (least, most) = ((energy.value - energy.error).max(0.0), (energy.value + energy.error).min(1.0));
+        Span { least, most }.ln()
+    }
+
+    /// ln(G/cos θ_r)
+    fn shadowing_over_cos_r(&self, region: &Region) -> Span {
+        let &Region { cos_i, cos_r, .. } = region;
+        let open = Span { least: 1.0 / cos_r.most, most: 1.0 / cos_r.least };
+        let span = match self.shadowing {
+            Shadowing::None => open,
+            Shadowing::VGroove => {
+                let groove = region.groove();
+                Span {
+                    least: open.least.min(groove.least * (cos_i.least / cos_r.most).min(1.0)),
+                    most: open.most.min(groove.most * (cos_i.most / cos_r.least).min(1.0)),
+                }
+            }
+        };
+        span.ln()
+    }
+
+    /// The second term of (47).
+    fn height_lobe(&self, region: &Region) -> Span {
+        let Some(roughness) = self.roughness else { return UNKNOWN };
+        let facet = region.facet_factor().ln();
+        let patch = libm::log(FRAC_PI_4) + 2.0 * libm::log(roughness.correlation_length);
+        sum(&[
+            constant(patch),
+            Span { least: 2.0 * facet.least, most: 2.0 * facet.most },
+            self.shadowing_over_cos_r(region),
+            lobe_series(roughness, region),
+            self.reflectance(region),
+        ])
+    }
+
+    /// (70)
+    fn facet_lobe(&self, region: &Region) -> Span {
+        let Some((sigma_alpha, scale)) = self.facets else { return UNKNOWN };
+        let exponent = |alpha: f64| {
+            let ratio = alpha / sigma_alpha;
+            -0.5 * ratio * ratio
+        };
+        let alpha = region.alpha();
+        let share = match self.roughness {
+            Some(roughness) if self.shares => {
+                let share =
+                    |cos: f64| libm::log(unified::lobe_share(unified::mirror_g(roughness.height, 1.0, cos)));
+                Span { least: share(region.cos_i.least), most: share(region.cos_i.most) }
+            }
+            _ => constant(0.0),
+        };
+        sum(&[
+            constant(scale),
+            Span { least: exponent(alpha.most), most: exponent(alpha.least) },
+            self.shadowing_over_cos_r(region),
+            share,
+            self.reflectance(region),
+        ])
+    }
+
+    /// The first term of (47); |sinc a| is not above 1/a.
+    fn spike(&self, region: &Region) -> Span {
+        let (Some(roughness), Some(view)) = (self.roughness, self.view) else { return UNKNOWN };
+        let phase = |cos_sum: f64| {
+            let root = 2.0 * PI * roughness.height * cos_sum;
+            -root * root
+        };
+        let (cos_i, cos_r) = (region.cos_i.ln(), region.cos_r.ln());
+        let (near, far) = (view.patch(region.cos_r.most), view.patch(region.cos_r.least));
+        let footprint = near.footprint.ln();
+        let shape = match region.direction {
+            Some(geometry) => {
+                let rho = near.rho_squared(&geometry);
+                Span { least: rho.least.ln(), most: (rho.value + rho.error).ln() }
+            }
+            None => pattern(region, &near, &far),
+        };
+        sum(&[
+            constant(footprint),
+            Span { least: phase(region.cos_sum.most), most: phase(region.cos_sum.least) },
+            Span { least: 2.0 * cos_i.least, most: 2.0 * cos_i.most },
+            Span { least: -2.0 * cos_r.most, most: -2.0 * cos_r.least },
+            shape,
+            self.reflectance(region),
+        ])
+    }
+}
+
+/// ln ρ_o² over a region; the patch is the smallest at `near` and the largest at `far`.
+fn pattern(region: &Region, near: &Patch, far: &Patch) -> Span {
+    let one = |half_near: f64, half_far: f64, component: Span| {
+        let (low, high) = (2.0 * PI * half_near * component.least, 2.0 * PI * half_far * component.most);
+        let most = if low > 1.0 { -libm::log(low) } else { 0.0 };
+        // sinc falls up to its first zero, π.
+        let least = if high < 3.0 { libm::log(super::numeric::sinc::sinc(high)) } else { f64::NEG_INFINITY };
+        Span { least: 2.0 * least, most: 2.0 * most }
+    };
+    one(near.half_x, far.half_x, region.along).plus(one(near.half_y, far.half_y, region.across))
+}
+
+/// ln S: it falls with x; g^1.5 S grows with g.
+fn lobe_series(roughness: RelativeRoughness, region: &Region) -> Span {
+    let g = |cos_sum: f64| {
+        let root = 2.0 * PI * roughness.height * cos_sum;
+        root * root
+    };
+    let x = |horizontal: f64| {
+        let root = PI * roughness.correlation_length * horizontal;
+        root * root
+    };
+    let (low, high) = (g(region.cos_sum.least), g(region.cos_sum.most));
+    if low == 0.0 {
+        return UNKNOWN;
+    }
+    // g and x are known to a few ε, and the condition of S is not much above 1 + |ln S|.
+    let blurred = |g: f64, x: f64| {
+        let (least, most) = envelope(g, x);
+        let slack = SLACK * (1.0 + least.abs());
+        (least - slack, most + slack)
+    };
+    if region.direction.is_some() {
+        let (least, most) = blurred(low, x(region.horizontal.least));
+        return Span { least, most };
+    }
+    let spread = STEEPEST * (libm::log(high) - libm::log(low));
+    Span {
+        least: blurred(low, x(region.horizontal.most)).0 - spread,
+        most: blurred(high, x(region.horizontal.least)).1 + spread,
+    }
+}
+
+const fn constant(value: f64) -> Span {
+    Span { least: value, most: value }
+}
+
+/// The sum of logarithms, with its rounding.
+fn sum(terms: &[Span]) -> Span {
+    let (mut least, mut most, mut low, mut high) = (0.0, 0.0, 0.0, 0.0);
+    for term in terms {
+        least += term.least;
+        most += term.most;
+        low += term.least.abs();
+        high += term.most.abs();
+    }
+    // An infinite bound is exact.
+    let slack = |size: f64| if f64::is_finite(size) { SLACK * (1.0 + size) } else { 0.0 };
+    Span { least: least - slack(low), most: most + slack(high) }
+}

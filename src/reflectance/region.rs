@@ -1,0 +1,164 @@
+//! A set of directions by the extremes of its angles, and what lies between them: every quantity of [`Geometry`] that
+//! the bounds of a component need, from below and from above. A single direction is the narrowest region.
+//!
+//! Roundings are not part of a span: those who take logarithms of it allow for them.
+
+use super::degrees::SinCos;
+use super::geometry::Geometry;
+use super::numeric::EPSILON;
+
+/// From the least to the largest, both included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub(super) least: f64,
+    pub(super) most: f64,
+}
+
+impl Span {
+    const fn new(least: f64, most: f64) -> Self {
+        Self { least, most }
+    }
+
+    /// Of sums.
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self::new(self.least + other.least, self.most + other.most)
+    }
+
+    /// Of products with a span that is not negative.
+    fn times(self, factor: Self) -> Self {
+        let below = if self.least < 0.0 { factor.most } else { factor.least };
+        let above = if self.most < 0.0 { factor.least } else { factor.most };
+        Self::new(self.least * below, self.most * above)
+    }
+
+    /// Of magnitudes.
+    fn magnitude(self) -> Self {
+        let most = self.least.abs().max(self.most.abs());
+        let least =
+            if self.least <= 0.0 && self.most >= 0.0 { 0.0 } else { self.least.abs().min(self.most.abs()) };
+        Self::new(least, most)
+    }
+
+    /// Of squares of what is not negative.
+    pub(super) fn squared(self) -> Self {
+        Self::new(self.least * self.least, self.most * self.most)
+    }
+
+    /// Of logarithms.
+    pub(super) fn ln(self) -> Self {
+        Self::new(libm::log(self.least), libm::log(self.most))
+    }
+}
+
+/// What a set of directions spans.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Region {
+    /// cos θ_i
+    pub(super) cos_i: Span,
+    /// cos θ_r
+    pub(super) cos_r: Span,
+    /// q = cos θ_i + cos θ_r
+    pub(super) cos_sum: Span,
+    /// v_xy/k
+    pub(super) horizontal: Span,
+    /// |v_x|/k
+    pub(super) along: Span,
+    /// |v_y|/k
+    pub(super) across: Span,
+    /// The direction itself, if there is only one.
+    pub(super) direction: Option<Geometry>,
+}
+
+impl Region {
+    /// From the extents of θ_i, θ_r and φ_r in degrees, and the direction if it is the only one.
+    pub(super) fn new([theta_i, theta_r, phi]: [[f64; 2]; 3], direction: Option<Geometry>) -> Self {
+        let (zenith, half_azimuth, sin_azimuth) = viewer(theta_r, phi);
+        let [low_i, high_i] = theta_i.map(SinCos::of_degrees);
+        let [low_r, high_r] = zenith.map(SinCos::of_degrees);
+        // sin θ_i − sin θ_r = 2 cos((θ_i + θ_r)/2) sin((θ_i − θ_r)/2): nothing cancels.
+        let half_sum = [theta_i[0] + zenith[0], theta_i[1] + zenith[1]]
+            .map(|sum| 2.0 * SinCos::of_degrees(sum / 2.0).cos);
+        let half_difference = [theta_i[0] - zenith[1], theta_i[1] - zenith[0]]
+            .map(|difference| SinCos::of_degrees(difference / 2.0).sin);
+        let difference = Span::new(half_difference[0], half_difference[1])
+            .times(Span::new(half_sum[1].max(0.0), half_sum[0]));
+        let sin_r = Span::new(low_r.sin, high_r.sin);
+        let sines = Span::new(low_i.sin, high_i.sin).times(sin_r).times(half_azimuth);
+        let (straight, aside) = (difference.magnitude().squared(), sines);
+        let horizontal = Span::new(
+            (straight.least + 4.0 * aside.least).sqrt(),
+            (straight.most + 4.0 * aside.most).sqrt().min(2.0),
+        );
+        let back = sin_r.times(half_azimuth);
+        let along = difference.plus(Span::new(2.0 * back.least, 2.0 * back.most));
+        // The two terms may cancel; each is known to a few ε of the largest.
+        let slack = 16.0 * EPSILON * (difference.magnitude().most + 2.0 * back.most);
+        let along = Span::new(along.least - slack, along.most + slack).magnitude();
+        let (cos_i, cos_r) = (Span::new(high_i.cos, low_i.cos), Span::new(high_r.cos, low_r.cos));
+        Self {
+            cos_i,
+            cos_r,
+            cos_sum: cos_i.plus(cos_r),
+            horizontal,
+            along,
+            across: sin_r.times(sin_azimuth),
+            direction,
+        }
+    }
+
+    /// 4 cos² θ′ = q² + v_xy²/k²
+    fn length_squared(&self) -> Span {
+        self.cos_sum.squared().plus(self.horizontal.squared())
+    }
+
+    /// q (1 + tan² α) of [`Geometry::facet_factor`]; q must not be 0.
+    pub(super) fn facet_factor(&self) -> Span {
+        let square = self.length_squared();
+        Span::new(square.least / self.cos_sum.most, square.most / self.cos_sum.least)
+    }
+
+    /// 2 cos α/cos θ′ of [`super::shadowing`].
+    pub(super) fn groove(&self) -> Span {
+        let square = self.length_squared();
+        Span::new(4.0 * self.cos_sum.least / square.most, 4.0 * self.cos_sum.most / square.least)
+    }
+
+    /// α, radians.
+    pub(super) fn alpha(&self) -> Span {
+        Span::new(
+            libm::atan2(self.horizontal.least, self.cos_sum.most),
+            libm::atan2(self.horizontal.most, self.cos_sum.least),
+        )
+    }
+}
+
+/// The zenith from 0 to 90°, sin²(φ/2) and |sin φ|: a negative zenith is the same one at φ + 180°.
+fn viewer(theta_r: [f64; 2], phi: [f64; 2]) -> ([f64; 2], Span, Span) {
+    let half = [phi[0] / 2.0, phi[1] / 2.0];
+    let sine = sin_magnitude(phi);
+    let all = Span::new(0.0, 1.0);
+    if theta_r[0] >= 0.0 {
+        (theta_r, sin_magnitude(half).squared(), sine)
+    } else if theta_r[1] < 0.0 {
+        let turned = [half[0] + 90.0, half[1] + 90.0];
+        ([-theta_r[1], -theta_r[0]], cos_magnitude(half, turned).squared(), sine)
+    } else {
+        ([0.0, theta_r[1].max(-theta_r[0])], all, sine)
+    }
+}
+
+/// |sin| between two angles.
+fn sin_magnitude([from, to]: [f64; 2]) -> Span {
+    extremes([from, to], [from, to].map(|angle| SinCos::of_degrees(angle).sin.abs()))
+}
+
+/// |cos| between two angles; `turned` is 90° on.
+fn cos_magnitude(angles: [f64; 2], turned: [f64; 2]) -> Span {
+    extremes(turned, angles.map(|angle| SinCos::of_degrees(angle).cos.abs()))
+}
+
+/// |sin| between two angles from its values at both: 0 at multiples of 180°, 1 halfway between.
+fn extremes([from, to]: [f64; 2], [a, b]: [f64; 2]) -> Span {
+    let contains = |offset: f64| ((to - offset) / 180.0).floor() >= ((from - offset) / 180.0).ceil();
+    Span::new(if contains(0.0) { 0.0 } else { a.min(b) }, if contains(90.0) { 1.0 } else { a.max(b) })
+}
