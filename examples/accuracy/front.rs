@@ -19,8 +19,8 @@ const BANDS: [(f64, f64); 6] =
 const DIRECTIONS: usize = 1024;
 /// σ_h/T of the surfaces.
 const SLOPE: f64 = 0.1;
-/// Repeats whose median is taken.
-const REPEATS: usize = 15;
+/// Repeats, of which the least is taken: what else runs on the machine only adds.
+const REPEATS: usize = 41;
 
 /// One method at one tolerance.
 pub(crate) struct Point {
@@ -121,22 +121,17 @@ impl Point {
     }
 }
 
-/// Median seconds of a direction by each way over `unit`; in turn, so that what slows the machine slows all of them.
+/// Least seconds of a direction by each way over `unit`; in turn, so that what slows the machine slows all of them.
 fn times(ways: &[Accuracy], unit: f64, mut run: impl FnMut(Accuracy)) -> Vec<f64> {
-    let mut timings = vec![Vec::new(); ways.len()];
+    let mut least = vec![f64::INFINITY; ways.len()];
     for _ in 0..REPEATS {
-        for (way, timings) in ways.iter().zip(&mut timings) {
+        for (way, least) in ways.iter().zip(&mut least) {
             let started = Instant::now();
             run(*way);
-            timings.push(started.elapsed().as_secs_f64());
+            *least = least.min(started.elapsed().as_secs_f64());
         }
     }
-    timings.into_iter().map(|timings| median(timings) / DIRECTIONS as f64 / unit).collect()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+    least.into_iter().map(|least| least / DIRECTIONS as f64 / unit).collect()
 }
 
 /// Seconds of one exponential: `wide`'s, four at once, over an array in the nearest cache.
@@ -144,7 +139,7 @@ fn exponential() -> f64 {
     let arguments: Vec<f64x4> = (0..DIRECTIONS / 4)
         .map(|i| f64x4::new([0.0, 0.25, 0.5, 0.75].map(|part| -0.01 * (i as f64 + part))))
         .collect();
-    let mut timings = Vec::new();
+    let mut least = f64::INFINITY;
     for _ in 0..200 * REPEATS {
         let started = Instant::now();
         let mut sum = f64x4::ZERO;
@@ -152,9 +147,9 @@ fn exponential() -> f64 {
             sum += argument.exp();
         }
         black_box(sum);
-        timings.push(started.elapsed().as_secs_f64());
+        least = least.min(started.elapsed().as_secs_f64());
     }
-    median(timings) / DIRECTIONS as f64
+    least / DIRECTIONS as f64
 }
 
 /// What the times were taken on, as far as it says of itself.

@@ -29,10 +29,9 @@ impl<A: Copy> Angles<A> {
         match self {
             Self::One(angle) => [get(*angle); 2],
             Self::Each(angles) => {
-                angles[range].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], &angle| {
-                    let angle = get(angle);
-                    [if angle < least { angle } else { least }, if angle > largest { angle } else { largest }]
-                })
+                let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+                angles[range].iter().for_each(|&angle| widen(&mut extent, get(angle)));
+                extent
             }
         }
     }
@@ -105,6 +104,27 @@ pub enum DirectionsError {
         /// Its length.
         length: usize,
     },
+}
+
+/// The least and the largest of some directions' angles, degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extents {
+    /// θ_i
+    pub(super) theta_i: [f64; 2],
+    /// θ_r as given
+    pub(super) theta_r: [f64; 2],
+    /// |θ_r|
+    pub(super) zenith: [f64; 2],
+    /// θ_i − |θ_r|
+    pub(super) difference: [f64; 2],
+    /// φ_r as given
+    pub(super) phi_r: [f64; 2],
+}
+
+/// Takes an angle into an extent; none of them is NaN.
+fn widen(extent: &mut [f64; 2], angle: f64) {
+    let [least, largest] = *extent;
+    *extent = [if angle < least { angle } else { least }, if angle > largest { angle } else { largest }];
 }
 
 /// N directions, 1 ≤ N ≤ [`bounds::MAX_DIRECTIONS`].
@@ -188,13 +208,28 @@ impl Directions {
         Geometry::new(theta_i, theta_r, phi_r)
     }
 
-    /// The least and the largest θ_i, θ_r and φ_r, degrees as given, of a range of directions that is not empty.
-    pub(super) fn extents(&self, range: Range<usize>) -> [[f64; 2]; 3] {
-        [
+    /// What a range of directions that is not empty spans.
+    pub(super) fn extents(&self, range: Range<usize>) -> Extents {
+        let mut difference = [f64::INFINITY, f64::NEG_INFINITY];
+        let apart = |index: usize| self.theta_i.at(index).get() - self.theta_r.at(index).get().abs();
+        if let (Angles::Each(_), Angles::Each(_)) = (&self.theta_i, &self.theta_r) {
+            range.clone().for_each(|index| widen(&mut difference, apart(index)));
+        }
+        let (theta_i, theta_r) = (
             self.theta_i.extent(range.clone(), SourceZenith::get),
             self.theta_r.extent(range.clone(), ViewerZenith::get),
-            self.phi_r.extent(range, Azimuth::get),
-        ]
+        );
+        let zenith = if theta_r[0] >= 0.0 {
+            theta_r
+        } else if theta_r[1] < 0.0 {
+            [-theta_r[1], -theta_r[0]]
+        } else {
+            [0.0, theta_r[1].max(-theta_r[0])]
+        };
+        // One of the two is the same for all: the ends of the other say it.
+        let ends = [theta_i[0] - zenith[1], theta_i[1] - zenith[0]];
+        let difference = if difference[0] <= difference[1] { difference } else { ends };
+        Extents { theta_i, theta_r, zenith, difference, phi_r: self.phi_r.extent(range, Azimuth::get) }
     }
 
     /// All geometries in order.

@@ -55,7 +55,18 @@ const PART: usize = 16 * LANES;
 ///
 /// A direction's answer does not depend on the others.
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
-    let Requirement { evaluated, omitted, share } = Requirement::of(scene, directions);
+    evaluate_required(scene, directions, quantity, output, Requirement::of(scene, directions))
+}
+
+/// Evaluates what is required of a scene.
+pub(super) fn evaluate_required(
+    scene: &Scene,
+    directions: &Directions,
+    quantity: Quantity,
+    output: Output,
+    requirement: Requirement,
+) -> Evaluation {
+    let Requirement { evaluated, omitted, share } = requirement;
     let needed = scene.with_only(&evaluated);
     let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
@@ -144,13 +155,12 @@ impl<'a> Answer<'a> {
     ) {
         self.columns.extend(values, bounds);
         let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
-        let (mut largest, mut least) = (0.0, f64::MAX);
-        for (&value, &bound) in values.iter().zip(bounds) {
-            largest = if bound > largest { bound } else { largest };
-            least = if value < least { value } else { least };
-        }
         let share = self.columns.omitted_share;
-        if largest + share > tolerance || least == 0.0 {
+        let mut needs_a_word = false;
+        for (&value, &bound) in values.iter().zip(bounds) {
+            needs_a_word |= (bound + share > tolerance) | (value == 0.0);
+        }
+        if needs_a_word {
             for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
                 let bound = bound + share;
                 if bound > tolerance {

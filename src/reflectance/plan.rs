@@ -5,11 +5,11 @@
 
 use super::cost::{self, Lobe};
 use super::directions::Directions;
-use super::evaluate::{EvaluatedBy, Evaluation, Output, Quantity, evaluate};
+use super::evaluate::{EvaluatedBy, Evaluation, Output, Quantity, evaluate_required};
 use super::findings::{Omitted, Warning};
 use super::numeric::lobe_series::{self, Method};
 use super::requirement::{self, Requirement};
-use super::scene::{Component, Components, Model, Scene};
+use super::scene::{Component, Model, Scene};
 use super::strain;
 use super::surface::Regime;
 use core::f64::consts::PI;
@@ -77,19 +77,16 @@ impl Cost {
 impl Plan {
     /// Of a scene in these directions.
     pub fn of(scene: &Scene, directions: &Directions) -> Self {
-        let Requirement { evaluated, omitted, share } = Requirement::of(scene, directions);
-        let needed = scene.with_only(&evaluated);
+        let requirement = Requirement::of(scene, directions);
+        let needed = scene.with_only(&requirement.evaluated);
         let count = directions.count();
         let indices = sample(count);
         let sampled = directions.select(&indices);
-        // The components are decided for all directions.
-        let mut named = needed.clone();
-        named.parameters.components = Components::Named(evaluated.clone());
         let output = Output { log10: false, per_direction: true };
-        let evaluation = evaluate(&named, &sampled, Quantity::Radiance, output);
+        let evaluation = evaluate_required(scene, &sampled, Quantity::Radiance, output, requirement.clone());
         let by = evaluation.method.as_deref().unwrap_or_default();
         let roughness_g = g_extremes(scene, directions);
-        let mut warnings = strain::warnings(scene, &needed, directions, &omitted);
+        let mut warnings = strain::warnings(scene, &needed, directions, &requirement.omitted);
         warnings.extend(of_values(&evaluation, &indices));
         let finite = evaluation
             .relative_error_bound
@@ -103,10 +100,10 @@ impl Plan {
             regimes: roughness_g.map(|extremes| extremes.map(Regime::of)),
             methods: evaluation.methods.clone(),
             ranges: ranges(by, &indices),
-            largest_bound: finite.fold(0.0, |largest, (bound, _)| f64::max(largest, *bound)) + share,
+            largest_bound: finite.fold(0.0, |largest, (bound, _)| f64::max(largest, *bound)),
             cost: predicted(scene, &needed, &sampled, by),
-            needed: evaluated,
-            omitted,
+            needed: requirement.evaluated,
+            omitted: requirement.omitted,
             warnings,
         }
     }

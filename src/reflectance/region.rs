@@ -4,6 +4,7 @@
 //! Roundings are not part of a span: those who take logarithms of it allow for them.
 
 use super::degrees::SinCos;
+use super::directions::Extents;
 use super::geometry::Geometry;
 use super::numeric::EPSILON;
 
@@ -70,16 +71,16 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// From the extents of θ_i, θ_r and φ_r in degrees, and the direction if it is the only one.
-    pub(super) fn new([theta_i, theta_r, phi]: [[f64; 2]; 3], direction: Option<Geometry>) -> Self {
-        let (zenith, half_azimuth, sin_azimuth) = viewer(theta_r, phi);
+    /// From the extents of the directions, and the direction if it is the only one.
+    pub(super) fn new(extents: &Extents, direction: Option<Geometry>) -> Self {
+        let &Extents { theta_i, theta_r, zenith, difference, phi_r } = extents;
+        let (half_azimuth, sin_azimuth) = azimuth(theta_r, phi_r);
         let [low_i, high_i] = theta_i.map(SinCos::of_degrees);
         let [low_r, high_r] = zenith.map(SinCos::of_degrees);
         // sin θ_i − sin θ_r = 2 cos((θ_i + θ_r)/2) sin((θ_i − θ_r)/2): nothing cancels.
         let half_sum = [theta_i[0] + zenith[0], theta_i[1] + zenith[1]]
             .map(|sum| 2.0 * SinCos::of_degrees(sum / 2.0).cos);
-        let half_difference = [theta_i[0] - zenith[1], theta_i[1] - zenith[0]]
-            .map(|difference| SinCos::of_degrees(difference / 2.0).sin);
+        let half_difference = difference.map(|difference| SinCos::of_degrees(difference / 2.0).sin);
         let difference = Span::new(half_difference[0], half_difference[1])
             .times(Span::new(half_sum[1].max(0.0), half_sum[0]));
         let sin_r = Span::new(low_r.sin, high_r.sin);
@@ -132,18 +133,16 @@ impl Region {
     }
 }
 
-/// The zenith from 0 to 90°, sin²(φ/2) and |sin φ|: a negative zenith is the same one at φ + 180°.
-fn viewer(theta_r: [f64; 2], phi: [f64; 2]) -> ([f64; 2], Span, Span) {
+/// sin²(φ/2) and |sin φ|: a negative zenith is the same one at φ + 180°.
+fn azimuth(theta_r: [f64; 2], phi: [f64; 2]) -> (Span, Span) {
     let half = [phi[0] / 2.0, phi[1] / 2.0];
     let sine = sin_magnitude(phi);
-    let all = Span::new(0.0, 1.0);
     if theta_r[0] >= 0.0 {
-        (theta_r, sin_magnitude(half).squared(), sine)
+        (sin_magnitude(half).squared(), sine)
     } else if theta_r[1] < 0.0 {
-        let turned = [half[0] + 90.0, half[1] + 90.0];
-        ([-theta_r[1], -theta_r[0]], cos_magnitude(half, turned).squared(), sine)
+        (cos_magnitude(half, [half[0] + 90.0, half[1] + 90.0]).squared(), sine)
     } else {
-        ([0.0, theta_r[1].max(-theta_r[0])], all, sine)
+        (Span::new(0.0, 1.0), sine)
     }
 }
 

@@ -64,8 +64,8 @@ impl Requirement {
             omitted.push(Omitted {
                 component: Component::SpecularSpike,
                 bound,
-                reason: "the specular spike depends on the sensor's footprint and none was given: bound is no bound of \
-                         its radiance, but of its share e^-g of the reflected energy",
+                reason: "the specular spike depends on the sensor's footprint and none was given: bound is its share e^-g \
+                         of the reflected energy, not of the radiance",
             });
         }
         Self { evaluated: remaining, omitted, share }
@@ -130,7 +130,7 @@ fn negligible(scene: &Scene, component: Component) -> &'static str {
 /// The region of some directions.
 pub(super) fn region(directions: &Directions, range: &Range<usize>) -> Region {
     let direction = (range.len() == 1).then(|| directions.geometry(range.start));
-    Region::new(directions.extents(range.clone()), direction)
+    Region::new(&directions.extents(range.clone()), direction)
 }
 
 /// Sets of components, one bit each.

@@ -4,7 +4,7 @@
 //! comparisons, and more only where it lies near a limit.
 
 use super::degrees::{self, SinCos};
-use super::directions::Directions;
+use super::directions::{Directions, Extents};
 use super::findings::{Concern, Omitted, Warning, WarningCode};
 use super::numeric::lobe_series::Method;
 use super::requirement;
@@ -46,7 +46,7 @@ pub(super) fn warnings(
     }
     // Of all that the scene reflects, also where these directions need not all of it.
     if let Some(energy) = SourceEnergy::of(scene) {
-        let sources = Sources::new(&energy, directions.extents(0..directions.count())[0]);
+        let sources = Sources::new(&energy, directions.extents(0..directions.count()).theta_i);
         warnings.extend(sources.warnings(directions));
     }
     warnings
@@ -75,8 +75,8 @@ fn of_directions(scene: &Scene, directions: &Directions, warnings: &mut Vec<Warn
     let extents = directions.extents(0..directions.count());
     let mut checks = Vec::with_capacity(4);
     if p.model == Model::BeckmannSpizzichino {
-        checks.extend(Curvature::of(scene, extents).map(Check::Curvature));
-        checks.extend(PatchSize::of(scene, extents).map(Check::Patch));
+        checks.extend(Curvature::of(scene, &extents).map(Check::Curvature));
+        checks.extend(PatchSize::of(scene, &extents).map(Check::Patch));
     } else {
         if let Some(roughness) = scene.relative_roughness()
             && !surface::is_geometrical(roughness.height)
@@ -95,7 +95,7 @@ fn of_directions(scene: &Scene, directions: &Directions, warnings: &mut Vec<Warn
     if scene.shadowing() == Shadowing::None
         && let Some(width) = slope_width(scene)
     {
-        checks.extend(Hidden::of(width, extents).map(Check::Hidden));
+        checks.extend(Hidden::of(width, &extents).map(Check::Hidden));
     }
     let mut concerns: Vec<Concern> = checks.iter().map(|_| Concern::default()).collect();
     if !checks.is_empty() {
@@ -161,13 +161,13 @@ struct Curvature {
 }
 
 impl Curvature {
-    fn of(scene: &Scene, [theta_i, theta_r, _]: [[f64; 2]; 3]) -> Option<Self> {
+    fn of(scene: &Scene, extents: &Extents) -> Option<Self> {
         let roughness = scene.relative_roughness()?;
         let radius =
             4.0 * PI * curvature_radius_in_wavelengths(roughness.height, roughness.correlation_length, 1.0);
         // A little early: the direction itself decides.
         let twice_limit = 2.0 * degrees::from_radians(libm::acos((FLAT_FROM / radius).min(1.0))) - 1e-9;
-        let most = theta_i[1] + theta_r[1].max(-theta_r[0]);
+        let most = extents.theta_i[1] + extents.zenith[1];
         (radius < FLAT_FROM || most > twice_limit).then_some(Self { radius, twice_limit })
     }
 }
@@ -181,7 +181,7 @@ struct PatchSize {
 }
 
 impl PatchSize {
-    fn of(scene: &Scene, [_, theta_r, _]: [[f64; 2]; 3]) -> Option<Self> {
+    fn of(scene: &Scene, extents: &Extents) -> Option<Self> {
         let p = scene.parameters();
         let length = p.surface.correlation_length?.get();
         match p.sensor? {
@@ -192,12 +192,7 @@ impl PatchSize {
             Sensor::Camera(camera) => {
                 let facing = camera.optics().half_side(1.0) / length;
                 let facing = 4.0 * facing * facing;
-                let nearest = if theta_r[0] <= 0.0 && theta_r[1] >= 0.0 {
-                    0.0
-                } else {
-                    theta_r[0].abs().min(theta_r[1].abs())
-                };
-                let least = facing / SinCos::of_degrees(nearest).cos;
+                let least = facing / SinCos::of_degrees(extents.zenith[0]).cos;
                 let up_to = degrees::from_radians(libm::acos((facing / LARGE_FROM).min(1.0)));
                 (least < LARGE_FROM).then_some(Self { least, up_to })
             }
@@ -216,8 +211,8 @@ struct Hidden {
 }
 
 impl Hidden {
-    fn of(width: f64, [theta_i, theta_r, _]: [[f64; 2]; 3]) -> Option<Self> {
-        let value = hidden(lambda(theta_i[1], width) + lambda(theta_r[1].max(-theta_r[0]), width));
+    fn of(width: f64, extents: &Extents) -> Option<Self> {
+        let value = hidden(lambda(extents.theta_i[1], width) + lambda(extents.zenith[1], width));
         if value <= HIDDEN_FROM {
             return None;
         }

@@ -3,7 +3,7 @@
 use crate::server::Server;
 use serde_json::{Value, json};
 
-const LINK: &str = "/v1/diagrams?model=torrance_sparrow&facet_slope_deg=12&n=1.5&sweep=theta_r_deg\
+const LINK: &str = "/v1/diagrams?model=torrance_sparrow&facet_slope_deg=12&n=1.5&diffuse_albedo=0.2&sweep=theta_r_deg\
     &from_deg=-60&to_deg=60&step_deg=20&at_deg=10,40&log10=true";
 
 fn csv(server: &Server, link: &str) -> (String, Vec<Vec<String>>) {
@@ -47,7 +47,7 @@ fn json_and_csv_hold_the_same_numbers() {
 fn the_link_and_the_body_answer_the_same() {
     let server = Server::start();
     let body = json!({
-        "model": "torrance_sparrow", "surface": {"facet_slope_deg": 12, "medium": {"n": 1.5}}, "illumination": {},
+        "model": "torrance_sparrow", "surface": {"facet_slope_deg": 12, "medium": {"n": 1.5}, "diffuse_albedo": 0.2}, "illumination": {},
         "sweep": "theta_r_deg", "from_deg": -60, "to_deg": 60, "step_deg": 20, "at_deg": [10, 40], "output": {"log10": true}
     });
     assert_eq!(server.get(LINK).json::<Value>().unwrap(), server.answer("/v1/diagrams", &body));

@@ -7,6 +7,7 @@ mod diagrams;
 mod documents;
 mod examples;
 mod limits;
+mod plan;
 mod properties;
 mod protocol;
 mod radiance;

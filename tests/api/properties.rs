@@ -121,7 +121,7 @@ fn geometry() -> impl Strategy<Value = Value> {
     })
 }
 
-fn request() -> impl Strategy<Value = Value> {
+pub(crate) fn request() -> impl Strategy<Value = Value> {
     let model =
         proptest::sample::select(vec!["beckmann_spizzichino", "torrance_sparrow", "lambertian", "unified"]);
     let method = proptest::sample::select(vec!["auto", "series", "paper", "uniform", "smooth", "rough"]);
@@ -274,7 +274,7 @@ fn whatever_is_sent_is_answered_or_refused() {
     let config = Config { failure_persistence: None, ..Config::with_cases(1500) };
     TestRunner::new(config)
         .run(&broken(), |request| {
-            for path in ["/v1/radiance", "/v1/diagrams", "/v1/image-irradiance"] {
+            for path in ["/v1/radiance", "/v1/plan", "/v1/diagrams", "/v1/image-irradiance"] {
                 let response = server.post(path, request.to_string());
                 let status = response.status().as_u16();
                 prop_assert!(status == 200 || status == 422, "{path}: {status} {}", response.text().unwrap());

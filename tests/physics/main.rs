@@ -5,6 +5,8 @@ mod hankel;
 mod invariance;
 mod limits;
 mod omission;
+mod realistic;
+mod savings;
 
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::EPSILON;

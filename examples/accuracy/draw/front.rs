@@ -8,7 +8,7 @@ use reflectance::reflectance::numeric::lobe_series::Method;
 use std::error::Error;
 
 /// Decades of the axes: time over one exp(), and error.
-const TIMES: (f64, f64) = (0.0, 3.0);
+const TIMES: (f64, f64) = (0.0, 4.0);
 const ERRORS: (f64, f64) = (-15.0, 1.0);
 
 /// A panel a band.
@@ -65,7 +65,7 @@ fn panel(area: &Area<'_>, band: &Band) -> Drawn {
         .bold_line_style(RGBColor(225, 225, 225))
         .x_desc("time of a direction, exp()")
         .y_desc("relative error")
-        .x_labels(4)
+        .x_labels(5)
         .y_labels(9)
         .x_label_formatter(&|v| power_of_ten(*v))
         .y_label_formatter(&|v| power_of_ten(*v))
