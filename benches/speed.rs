@@ -85,11 +85,15 @@ fn report() {
     }
     println!("1 = wide::f64x4::exp, {:.2} ns an element", median(exps));
     print!("\n| whole radiance |");
-    BANDS.iter().for_each(|(band, _)| print!(" {band} |"));
+    for (band, _) in BANDS {
+        print!(" {band} |");
+    }
     println!(" typical | worst |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for (name, ratios) in &rows {
         print!("| {name} |");
-        ratios.iter().for_each(|ratio| print!(" {ratio:.1} |"));
+        for ratio in ratios {
+            print!(" {ratio:.1} |");
+        }
         let worst = ratios.iter().copied().fold(0.0, f64::max);
         println!(" {:.1} | {worst:.1} |", median(ratios.clone()));
     }

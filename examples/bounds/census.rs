@@ -2,6 +2,9 @@
 
 use crate::points::{Random, point};
 use reflectance::reflectance::estimate::Estimate;
+use reflectance::reflectance::numeric::dispatch::InstructionSet;
+use reflectance::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES, Lanes};
+use reflectance::reflectance::numeric::lobe_series::patches::{self, Tier};
 use reflectance::reflectance::numeric::lobe_series::{LobeSeries, Method, between, evaluate};
 use reflectance::reflectance::numeric::scaled::Scaled;
 
@@ -17,10 +20,10 @@ const BINS: usize = 1280;
 #[derive(Clone)]
 pub(crate) struct Seen {
     /// Its name.
-    pub(crate) name: &'static str,
+    pub(crate) name: String,
     /// Points where it serves: bound ≤ 0.5 and an error that is more than rounding.
     pub(crate) useful: u64,
-    /// Largest error over bound anywhere.
+    /// Largest error over bound where it serves.
     pub(crate) largest_share: f64,
     /// Largest bound over error where it serves, and where that is.
     pub(crate) most_idle: (f64, f64, f64),
@@ -32,9 +35,9 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
-    fn of(name: &'static str) -> Self {
+    fn of(name: &str) -> Self {
         Self {
-            name,
+            name: name.to_owned(),
             useful: 0,
             largest_share: 0.0,
             most_idle: (0.0, 0.0, 0.0),
@@ -53,6 +56,7 @@ impl Seen {
 
     fn ratio(&mut self, g: f64, x: f64, ratio: f64) {
         self.useful += 1;
+        self.largest_share = self.largest_share.max(1.0 / ratio);
         if ratio > self.most_idle.0 {
             self.most_idle = (ratio, g, x);
         }
@@ -87,10 +91,12 @@ impl Seen {
     }
 }
 
-/// The methods and, last, the enclosure that needs no method.
+/// The methods, one point at a time and in batches, and the enclosure that needs no method.
 pub(crate) struct Census {
     /// One entry a method.
     pub(crate) methods: Vec<(Method, Seen)>,
+    /// One entry for each truncation that a batch can be asked for.
+    pub(crate) tiers: Vec<(&'static Tier, Seen)>,
     /// [`between`], its ratio that of its ends.
     pub(crate) between: Seen,
 }
@@ -99,14 +105,19 @@ impl Census {
     /// Of `count` points that `seed` draws.
     pub(crate) fn take(count: u64, seed: u64) -> Self {
         let methods = Method::ALL.into_iter().filter(|m| *m != Method::Series);
+        let tiers = patches::ALL.into_iter();
         let mut census = Self {
             methods: methods.map(|m| (m, Seen::of(m.name()))).collect(),
+            tiers: tiers.map(|t| (t, Seen::of(&format!("batch to {:.1e}", t.truncation)))).collect(),
             between: Seen::of("between"),
         };
         let mut random = Random::new(seed);
-        for _ in 0..count {
-            let (g, x) = point(&mut random);
-            census.look_at(g, x);
+        let (mut g, mut x): (Lanes, Lanes) = ([0.0; LANES], [0.0; LANES]);
+        for _ in 0..count.div_ceil(LANES as u64) {
+            for (g, x) in g.iter_mut().zip(&mut x) {
+                (*g, *x) = point(&mut random);
+            }
+            census.look_at_all(&g, &x);
         }
         census
     }
@@ -116,19 +127,47 @@ impl Census {
         for ((_, mine), (_, others)) in self.methods.iter_mut().zip(&other.methods) {
             mine.merge(others);
         }
+        for ((_, mine), (_, others)) in self.tiers.iter_mut().zip(&other.tiers) {
+            mine.merge(others);
+        }
         self.between.merge(&other.between);
     }
 
     /// All that was seen.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Seen> {
-        self.methods.iter().map(|(_, seen)| seen).chain([&self.between])
+        let methods = self.methods.iter().map(|(_, seen)| seen);
+        methods.chain(self.tiers.iter().map(|(_, seen)| seen)).chain([&self.between])
     }
 
-    fn look_at(&mut self, g: f64, x: f64) {
-        let series = evaluate(Method::Series, g, x);
+    fn look_at_all(&mut self, g: &Lanes, x: &Lanes) {
+        let series: Vec<_> = g.iter().zip(x).map(|(&g, &x)| evaluate(Method::Series, g, x)).collect();
+        for ((&g, &x), series) in g.iter().zip(x).zip(&series) {
+            self.look_at(g, x, series);
+        }
+        let mut batch = Batch::new();
+        for (tier, seen) in &mut self.tiers {
+            lanes::evaluate(InstructionSet::widest(), Choice::auto(tier), g, x, &mut batch);
+            for (place, series) in series.iter().enumerate() {
+                let Some(value) = batch.get(place) else { continue };
+                let ratio = compare(seen, g[place], x[place], &value, series);
+                // The closed forms are the named methods'.
+                let own = !matches!(value.method, Method::Smooth | Method::Rough);
+                if let Some(ratio) = ratio.filter(|_| own) {
+                    seen.ratio(g[place], x[place], ratio);
+                }
+                if batch.truncation[place] > tier.truncation {
+                    seen.violation(g[place], x[place], "more is left out than asked");
+                }
+            }
+        }
+    }
+
+    fn look_at(&mut self, g: f64, x: f64, series: &LobeSeries) {
         for (method, seen) in &mut self.methods {
             let value = evaluate(*method, g, x);
-            compare(seen, g, x, &value, &series);
+            if let Some(ratio) = compare(seen, g, x, &value, series) {
+                seen.ratio(g, x, ratio);
+            }
         }
         let (low, high) = between(g, x);
         let Estimate { value, error, least } = series.estimate;
@@ -142,16 +181,15 @@ impl Census {
     }
 }
 
-fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSeries) {
+/// Notes what is wrong; the ratio of bound to error where the method serves.
+fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSeries) -> Option<f64> {
     let (mine, exact) = (value.estimate, series.estimate);
     if mine.value.is_nan() || mine.error.is_nan() || mine.least.is_nan() {
         seen.violation(g, x, "not a number");
-        return;
+        return None;
     }
     let off = mine.value.distance(exact.value);
-    let share = if off.is_zero() { 0.0 } else { (off / (mine.error + exact.error)).to_f64() };
-    seen.largest_share = seen.largest_share.max(share);
-    if share > 1.0 {
+    if above(off, mine.error + exact.error) {
         seen.violation(g, x, "the error is above its bound");
     }
     if above(mine.least, exact.value + exact.error) {
@@ -163,9 +201,8 @@ fn compare(seen: &mut Seen, g: f64, x: f64, value: &LobeSeries, series: &LobeSer
         seen.violation(g, x, "a condition is understated");
     }
     let (bound, error) = (mine.relative_error(), (off / exact.value).to_f64());
-    if bound <= USEFUL && error > ROUNDING.max(4.0 * exact.relative_error()) {
-        seen.ratio(g, x, bound / error);
-    }
+    let serves = bound <= USEFUL && error > ROUNDING.max(4.0 * exact.relative_error());
+    serves.then(|| bound / error)
 }
 
 /// Whether `a` is above `b`.

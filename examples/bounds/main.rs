@@ -39,18 +39,18 @@ fn main() -> ExitCode {
 
 fn report(census: &Census, count: u64) {
     println!(
-        "{count} points; bound over error where bound ≤ 0.5 and error > 1e-14 (between: high over low)\n"
+        "{count} points; a method serves where its bound is 0.5 or less and its error above 1e-14. between: high/low\n"
     );
     println!(
-        "| method | violations | largest error/bound | points where it serves | median | worst | at g, x |"
+        "| method | violations | points where it serves | largest error/bound | median bound/error | largest | at g, x |"
     );
     println!("| --- | --- | --- | --- | --- | --- | --- |");
     for seen in census.all() {
         let (worst, g, x) = seen.most_idle;
-        let (name, median) = (seen.name, seen.median());
+        let (name, median) = (&seen.name, seen.median());
         let (violations, share, useful) = (seen.violations, seen.largest_share, seen.useful);
         println!(
-            "| {name} | {violations} | {share:.3} | {useful} | {median:.3} | {worst:.3e} | {g:e}, {x:e} |"
+            "| {name} | {violations} | {useful} | {share:.4} | {median:.3} | {worst:.3e} | {g:e}, {x:e} |"
         );
     }
     for example in census.all().flat_map(|seen| &seen.examples) {

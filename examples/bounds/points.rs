@@ -1,5 +1,7 @@
 //! Points (g, x) over the plane, most of them where a method ends or hands over to another.
 
+use reflectance::reflectance::numeric::lobe_series::patches::{self, MOST_PATCHES};
+
 /// `SplitMix64`: the points of a seed are the same everywhere.
 pub(crate) struct Random(u64);
 
@@ -31,10 +33,13 @@ impl Random {
         10f64.powf(self.uniform(from, to))
     }
 
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to below the length")]
+    fn index(&mut self, length: usize) -> usize {
+        (self.share() * length as f64) as usize
+    }
+
     fn one_of(&mut self, values: &[f64]) -> f64 {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-        let index = (self.share() * values.len() as f64) as usize;
-        values[index]
+        values[self.index(values.len())]
     }
 
     /// One of `values`, or near it: as near as 1e-9, as far as a quarter.
@@ -63,7 +68,7 @@ pub(crate) fn point(random: &mut Random) -> (f64, f64) {
 }
 
 fn candidate(random: &mut Random) -> (f64, f64) {
-    match random.bits() % 12 {
+    match random.bits() % 14 {
         // The whole domain, and what surfaces are like.
         0 => (random.decades(-324.0, 250.0), random.decades(-324.0, 250.0)),
         1 | 2 => (random.decades(-6.0, 8.0), random.decades(-6.0, 10.0)),
@@ -96,8 +101,24 @@ fn candidate(random: &mut Random) -> (f64, f64) {
             (g, 2.0 * (4.0 * random.near(&TRUNCATION) / g).ln())
         }
         // The end of 100 terms.
-        10 => (random.uniform(40.0, 100.0), random.one_of(&[0.0, 1.0, 1e3]) * random.share()),
+        10 | 11 => at_patch(random),
+        12 => (random.uniform(40.0, 100.0), random.one_of(&[0.0, 1.0, 1e3]) * random.share()),
         _ => at_saddle(random.uniform(60.0, 130.0), width(random)),
+    }
+}
+
+/// In one of the polynomials' patches or next to its edges.
+fn at_patch(random: &mut Random) -> (f64, f64) {
+    loop {
+        let tier = patches::ALL[random.index(patches::ALL.len())];
+        let Some(patch) = tier.patch(random.index(MOST_PATCHES)) else { continue };
+        let far = patch.mu_to.min(1e6 * patch.mu_from);
+        let inside = patch.mu_from * (far / patch.mu_from).powf(random.share());
+        let mu = if random.share() < 0.5 { inside } else { random.near(&[patch.mu_from, far]) };
+        let widest = patch.w_to.min(mu / patch.variance_from);
+        let inside = patch.w_from + (widest - patch.w_from) * random.share();
+        let w = if random.share() < 0.5 { inside } else { random.near(&[patch.w_from, widest]) };
+        return at_saddle(mu, w.max(1.0));
     }
 }
 

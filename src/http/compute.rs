@@ -2,6 +2,7 @@
 
 use super::problem::{Kind, Problem};
 use super::track::Deadline;
+use tokio::sync::{Semaphore, SemaphorePermit};
 
 /// Directions that are evaluated without a change of thread, which costs as much as dozens of them.
 const SMALL: usize = 1000;
@@ -26,6 +27,19 @@ pub(super) async fn run<T: Send + 'static>(
         Err(too_slow())
     } else {
         Ok(work())
+    }
+}
+
+/// Waits for a turn among those who share `turns`; a turn lasts until the permit is dropped.
+pub(super) async fn turn(
+    deadline: Deadline,
+    turns: &'static Semaphore,
+) -> Result<SemaphorePermit<'static>, Problem> {
+    match tokio::time::timeout_at(deadline.0, turns.acquire()).await {
+        Ok(Ok(permit)) => Ok(permit),
+        // Nobody closes them.
+        Ok(Err(_)) => Err(Problem::internal()),
+        Err(_) => Err(too_slow()),
     }
 }
 

@@ -1,7 +1,9 @@
 //! The only list of routes: routing and document both come from it.
 
 use super::Limits;
-use super::api::{diagrams, documents, figures, health, image_irradiance, plan, radiance, roughness};
+use super::api::{
+    diagrams, documents, figures, health, image_irradiance, plan, radiance, roughness, tradeoff,
+};
 use super::openapi;
 use super::problem::Problem;
 use super::track::not_found;
@@ -16,6 +18,7 @@ fn documented() -> OpenApiRouter<Limits> {
         .routes(routes!(radiance::radiance))
         .routes(routes!(radiance::brdf))
         .routes(routes!(plan::plan))
+        .routes(routes!(tradeoff::tradeoff))
         .routes(routes!(diagrams::link, diagrams::diagram))
         .routes(routes!(image_irradiance::image_irradiance))
         .routes(routes!(figures::index))

@@ -36,7 +36,7 @@ impl<A: Copy> Angles<A> {
         }
     }
 
-    fn some(&self, indices: &[usize]) -> Self {
+    fn select(&self, indices: &[usize]) -> Self {
         match self {
             Self::One(angle) => Self::One(*angle),
             Self::Each(angles) => Self::Each(indices.iter().map(|&index| angles[index]).collect()),
@@ -171,6 +171,17 @@ impl Directions {
         errors
     }
 
+    /// Some of the directions, at least one, each index < N.
+    #[must_use]
+    pub fn select(&self, indices: &[usize]) -> Self {
+        Self {
+            theta_i: self.theta_i.select(indices),
+            theta_r: self.theta_r.select(indices),
+            phi_r: self.phi_r.select(indices),
+            count: indices.len(),
+        }
+    }
+
     /// A curve: as many source as viewer zeniths, at least one.
     pub(super) fn of_curve(
         theta_i: Vec<SourceZenith>,
@@ -189,16 +200,6 @@ impl Directions {
     /// θ_i, θ_r and φ_r of direction `index` < N.
     pub fn angles(&self, index: usize) -> (SourceZenith, ViewerZenith, Azimuth) {
         (self.theta_i.at(index), self.theta_r.at(index), self.phi_r.at(index))
-    }
-
-    /// The directions of these indices, of which there is at least one.
-    pub(super) fn at(&self, indices: &[usize]) -> Self {
-        Self {
-            theta_i: self.theta_i.some(indices),
-            theta_r: self.theta_r.some(indices),
-            phi_r: self.phi_r.some(indices),
-            count: indices.len(),
-        }
     }
 
     /// The geometry of direction `index` < N.

@@ -42,6 +42,7 @@ mod strain;
 pub mod surface;
 pub mod table;
 pub mod torrance_sparrow;
+pub mod tradeoff;
 pub mod unified;
 mod view;
 pub mod waves;

@@ -81,7 +81,7 @@ impl Plan {
         let needed = scene.with_only(&requirement.evaluated);
         let count = directions.count();
         let indices = sample(count);
-        let sampled = directions.at(&indices);
+        let sampled = directions.select(&indices);
         let output = Output { log10: false, per_direction: true };
         let evaluation = evaluate_required(scene, &sampled, Quantity::Radiance, output, requirement.clone());
         let by = evaluation.method.as_deref().unwrap_or_default();

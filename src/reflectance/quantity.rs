@@ -124,6 +124,13 @@ impl Fraction {
     pub const ONE: Self = Self(1.0);
 }
 
+impl Tolerance {
+    /// The finest that may be asked for.
+    pub const FINEST: Self = Self(bounds::TOLERANCE.min);
+    /// From the coarsest on, those that measurements of the trade of speed for accuracy are made at.
+    pub const STEPS: [Self; 5] = [Self(1e-1), Self(1e-3), Self(1e-6), Self(1e-9), Self(1e-12)];
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Quantity, RmsHeight, SourceZenith};

@@ -162,6 +162,13 @@ impl Scene {
         Self { parameters, evaluated, facet_slope_radians }
     }
 
+    /// The same scene to another accuracy, which is no part of what can be wrong.
+    #[must_use]
+    pub fn with_accuracy(&self, accuracy: Accuracy) -> Self {
+        let parameters = SceneParameters { accuracy, ..self.parameters.clone() };
+        Self { parameters, ..self.clone() }
+    }
+
     /// The parameters it was made of.
     pub fn parameters(&self) -> &SceneParameters {
         &self.parameters

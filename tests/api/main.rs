@@ -13,3 +13,4 @@ mod protocol;
 mod radiance;
 mod readme;
 mod server;
+mod tradeoff;

@@ -11,18 +11,27 @@ use std::fmt::Write as _;
 /// The gate, in units of the measure.
 pub(crate) const GATE: f64 = 64.0;
 
-/// The worst of one quantity.
+/// The errors of one quantity.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Worst {
+pub(crate) struct Errors {
     /// Values checked.
     pub(crate) count: usize,
     /// Largest error, in units.
     pub(crate) units: f64,
     /// The line it is at.
     pub(crate) line: &'static str,
+    /// Every error, in units.
+    pub(crate) every: Vec<f64>,
 }
 
-impl Worst {
+impl Errors {
+    /// The error that half of the values stay within.
+    pub(crate) fn median(&self) -> f64 {
+        let mut every = self.every.clone();
+        every.sort_by(f64::total_cmp);
+        every.get(every.len() / 2).copied().unwrap_or(0.0)
+    }
+
     fn add(&mut self, line: &'static str, units: f64) {
         self.count += 1;
         // A NaN would lose every comparison: it counts as infinitely wrong.
@@ -30,6 +39,7 @@ impl Worst {
         if units > self.units || self.line.is_empty() {
             (self.units, self.line) = (units, line);
         }
+        self.every.push(units);
     }
 }
 
@@ -40,8 +50,8 @@ pub(crate) struct Measured {
     pub(crate) name: &'static str,
     /// Lines read.
     pub(crate) lines: usize,
-    /// Worst by quantity; logarithms under `log10 …`.
-    pub(crate) worst: BTreeMap<String, Worst>,
+    /// Errors by quantity; logarithms under `log10 …`.
+    pub(crate) worst: BTreeMap<String, Errors>,
     /// Everything that is wrong, one sentence each.
     pub(crate) failures: Vec<String>,
 }
@@ -93,9 +103,13 @@ impl Measured {
     fn report(&self) -> String {
         let mut text = format!("{}: {} lines, {} values\n", self.name, self.lines, self.values());
         for (quantity, worst) in &self.worst {
-            let Worst { count, units, line } = worst;
-            writeln!(text, "  {quantity:32} {count:6} values, worst {units:8.3} units at {line}")
-                .expect("string");
+            let Errors { count, units, line, .. } = worst;
+            let median = worst.median();
+            writeln!(
+                text,
+                "  {quantity:32} {count:6} values, median {median:6.3}, worst {units:8.3} units at {line}"
+            )
+            .expect("string");
         }
         text
     }

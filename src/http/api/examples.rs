@@ -110,6 +110,8 @@ pub(crate) const BODIES: &[Example] = &[
         MIRROR,
     ),
     example("/v1/plan", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+    example("/v1/tradeoff", "rough_conductor", "Every method on four directions of a rough conductor", FIRST),
+    example("/v1/tradeoff", "camera", "The same trade with a spike beside the lobe", CAMERA),
     example("/v1/diagrams", "fixed_source", "BRDF over the viewing angle for four sources", DIAGRAM),
     example("/v1/diagrams", "fixed_view", "Radiance over the source angle for two views", FIXED_VIEW_DIAGRAM),
     example("/v1/image-irradiance", "camera", "What a pixel receives from aluminium, (51)", CAMERA),

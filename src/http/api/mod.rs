@@ -14,6 +14,7 @@ pub(super) mod roughness;
 mod scene;
 mod spike;
 mod sweep;
+pub(super) mod tradeoff;
 
 /// The body of the request that the program suggests when it starts.
 pub(super) const FIRST_REQUEST: &str = examples::FIRST;

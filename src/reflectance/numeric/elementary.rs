@@ -207,10 +207,10 @@ mod tests {
             // The remainder of 90° has no rounding but what the literal has.
             let rest = angle - 90.0 * (angle / 90.0).round();
             let (near_sin, near_cos) = libm::sincos(rest.to_radians());
-            let (expected_sin, expected_cos) = match ((angle / 90.0).round() as i64).rem_euclid(4) {
-                0 => (near_sin, near_cos),
-                1 => (near_cos, -near_sin),
-                2 => (-near_sin, -near_cos),
+            let (expected_sin, expected_cos) = match (angle / 90.0).round().rem_euclid(4.0) {
+                0.0 => (near_sin, near_cos),
+                1.0 => (near_cos, -near_sin),
+                2.0 => (-near_sin, -near_cos),
                 _ => (-near_cos, near_sin),
             };
             // Measured against 140 bits: 2.02 ε; to_radians rounds twice, which |x/tan x| ≤ 1 does not enlarge.

@@ -30,6 +30,9 @@ pub(super) fn evaluate(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Bat
     let mut few = Places::none();
     let mut patched = Sorted::new();
     for place in 0..count {
+        if batch.method[place] != Method::Uniform {
+            continue;
+        }
         match tier.number_at(mu[place], w[place]) {
             _ if !is_bounded(batch.exponent[place]) => batch.method[place] = Method::Auto,
             Some(number) => patched.add(place, number),

@@ -86,6 +86,9 @@ impl Batch {
     }
 }
 
+/// Exponents from here on are left to the sum, which knows what their rounding does.
+const LARGEST_EXPONENT: f64 = 1e14;
+
 /// What a batch may be evaluated by.
 #[derive(Clone, Copy, Debug)]
 pub struct Choice<'a> {
@@ -138,87 +141,90 @@ impl Places {
     }
 }
 
+/// What evaluates a point, as a lane holds it.
+mod kind {
+    /// The saddle, or the sum.
+    pub(super) const SADDLE: f64 = 0.0;
+    /// (49)
+    pub(super) const ROUGH: f64 = 1.0;
+    /// (48)
+    pub(super) const FIRST: f64 = 2.0;
+    /// Nothing of this file.
+    pub(super) const LEFT: f64 = 3.0;
+}
+
 #[inline(always)]
 fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
     let Choice { tier, uniform_only } = choice;
     // Without other methods no truncation is enough for them.
-    let others = if uniform_only { -1.0 } else { tier.truncation };
+    let enough = if uniform_only { -1.0 } else { tier.truncation };
     let count = g.len().min(x.len()).min(LANES);
     let (g, x) = (&g[..count], &x[..count]);
-    // Whether a point may be something else than one for the saddle; most batches have none.
-    let mut special = 0.0;
+    let mut kinds = [kind::SADDLE; LANES];
+    let (mut least, mut most) = (kind::LEFT, kind::SADDLE);
     for place in 0..count {
-        let (g, x) = (g[place], x[place]);
-        let ordinary = g >= 1e-140
-            && g <= 1e140
-            && 2.0 * (x / g) / g <= 1e250
-            && 0.25 * g > others
-            && rough::bound(g, x) > others;
-        special = if ordinary { special } else { 1.0 };
+        let kind = kind_of(enough, g[place], x[place]);
+        kinds[place] = kind;
+        least = if kind < least { kind } else { least };
+        most = if kind > most { kind } else { most };
     }
     batch.method[..count].fill(Method::Uniform);
-    if special == 0.0 {
-        by_saddle::evaluate(choice, g, x, batch);
-        return;
-    }
-    let (mut first_places, mut rough_places, mut rest) = (Places::none(), Places::none(), Places::none());
-    for place in 0..count {
-        let (g, x) = (g[place], x[place]);
-        if !(1e-140..=1e140).contains(&g) || 2.0 * (x / g) / g > 1e250 {
-            batch.method[place] = Method::Auto;
-        } else if 0.25 * g <= others
-            && single_term::rest_to_first(single_term::second_to_first(g, x)) <= others
-        {
-            first_places.push(place);
-        } else if rough::bound(g, x) <= others {
-            rough_places.push(place);
-        } else {
-            rest.push(place);
+    if most > kind::SADDLE {
+        for place in 0..count {
+            batch.method[place] = match kinds[place] {
+                kind::SADDLE => Method::Uniform,
+                kind::ROUGH => Method::Rough,
+                kind::FIRST => Method::Smooth,
+                _ => Method::Auto,
+            };
         }
     }
-    let forms = |form: fn(f64, f64) -> Form, method: Method| {
-        move |g: &[f64], x: &[f64], batch: &mut Batch| {
-            for place in 0..g.len().min(x.len()).min(LANES) {
-                batch.set(place, &form(g[place], x[place]));
-                batch.method[place] = method;
-            }
-        }
-    };
-    elsewhere(&first_places, g, x, batch, forms(first_term, Method::Smooth));
-    elsewhere(&rough_places, g, x, batch, forms(rough_form, Method::Rough));
-    elsewhere(&rest, g, x, batch, |g, x, batch| {
-        batch.method[..g.len()].fill(Method::Uniform);
+    if least == kind::SADDLE {
         by_saddle::evaluate(choice, g, x, batch);
-    });
+    }
+    if most >= kind::ROUGH {
+        select(kind::ROUGH, rough_form, &kinds, g, x, batch);
+    }
+    if most >= kind::FIRST {
+        select(kind::FIRST, first_term, &kinds, g, x, batch);
+    }
 }
 
-/// Evaluates some of a batch's points in a batch of their own.
 #[inline(always)]
-fn elsewhere(
-    places: &Places,
+fn kind_of(enough: f64, g: f64, x: f64) -> f64 {
+    // No branches: every part is cheap, and a lane cannot skip any.
+    let y = x / g;
+    let is_inside = (g >= 1e-140) & (g <= 1e140) & (2.0 * y / g <= 1e250);
+    // An x so large leaves a second term that is not negligible for any g inside.
+    let ratio = g * (0.25 * exp(0.5 * x.min(1400.0)).value());
+    let is_first = (x < 1400.0) & (single_term::rest_to_first(ratio) <= enough);
+    let is_rough = (rough::bound(g, x) <= enough) & (y < LARGEST_EXPONENT);
+    let kind = if is_rough { kind::ROUGH } else { kind::SADDLE };
+    let kind = if is_first { kind::FIRST } else { kind };
+    if is_inside { kind } else { kind::LEFT }
+}
+
+/// Evaluates `form` at the points of one kind.
+#[inline(always)]
+fn select(
+    kind: f64,
+    form: impl Fn(f64, f64) -> Form,
+    kinds: &Lanes,
     g: &[f64],
     x: &[f64],
     batch: &mut Batch,
-    evaluate: impl Fn(&[f64], &[f64], &mut Batch),
 ) {
-    if places.count == 0 {
-        return;
-    }
-    let (mut g_there, mut x_there) = ([0.0; LANES], [0.0; LANES]);
-    for ((g_there, x_there), &place) in g_there.iter_mut().zip(&mut x_there).zip(places.all()) {
-        *g_there = g[usize::from(place)];
-        *x_there = x[usize::from(place)];
-    }
-    let mut there = Batch::new();
-    evaluate(&g_there[..places.count], &x_there[..places.count], &mut there);
-    for (from, &to) in places.all().iter().enumerate() {
-        let to = usize::from(to);
-        batch.significand[to] = there.significand[from];
-        batch.exponent[to] = there.exponent[from];
-        batch.truncation[to] = there.truncation[from];
-        batch.condition_g[to] = there.condition_g[from];
-        batch.condition_x[to] = there.condition_x[from];
-        batch.method[to] = there.method[from];
+    for place in 0..g.len().min(x.len()).min(LANES) {
+        let form = form(g[place], x[place]);
+        let is_meant = kinds[place] == kind;
+        let selected = Form {
+            significand: if is_meant { form.significand } else { batch.significand[place] },
+            exponent: if is_meant { form.exponent } else { batch.exponent[place] },
+            truncation: if is_meant { form.truncation } else { batch.truncation[place] },
+            condition_g: if is_meant { form.condition_g } else { batch.condition_g[place] },
+            condition_x: if is_meant { form.condition_x } else { batch.condition_x[place] },
+        };
+        batch.set(place, &selected);
     }
 }
 
@@ -226,8 +232,7 @@ fn elsewhere(
 #[inline(always)]
 fn first_term(g: f64, x: f64) -> Form {
     let e = exp(-(g + x));
-    // The second term is below 4 times the truncation asked for, so x is below 2 ln(4/g): no overflow.
-    let ratio = 0.25 * g * exp(0.5 * x).value();
+    let ratio = g * (0.25 * exp(0.5 * x.min(1400.0)).value());
     Form {
         significand: e.significand * g,
         exponent: e.exponent,

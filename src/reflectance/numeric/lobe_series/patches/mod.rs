@@ -7,6 +7,11 @@
 
 use crate::reflectance::numeric::EPSILON;
 
+mod e1;
+mod e12_1;
+mod e12_2;
+mod e3;
+mod e6;
 mod e9_1;
 mod e9_2;
 mod full_1;
@@ -51,7 +56,8 @@ pub const MOST_PATCHES: usize = 32;
 const NONE: u8 = u8::MAX;
 /// The bands of μ begin at numbers of two binary digits after the first: all that the search looks at.
 const KEY_SHIFT: u32 = 50;
-const FIRST_KEY: u64 = 2.0f64.to_bits() >> KEY_SHIFT;
+const LEAST_MU: f64 = 1.0;
+const FIRST_KEY: u64 = LEAST_MU.to_bits() >> KEY_SHIFT;
 const KEYS: usize = 64;
 
 /// The patches of one truncation error.
@@ -75,6 +81,8 @@ impl Tier {
             while place < parts[part].len() {
                 let patch: &'static Patch = &parts[part][place];
                 assert!(patch.error <= truncation);
+                assert!(patch.mu_from >= LEAST_MU);
+                assert!((patch.mu_from.to_bits() >> KEY_SHIFT) << KEY_SHIFT == patch.mu_from.to_bits());
                 patches[number as usize] = Some(patch);
                 let side = if patch.w_from == 1.0 { 0 } else { 1 };
                 let mut key = 0;
@@ -96,7 +104,7 @@ impl Tier {
     /// The patch that serves at μ and w; none where the sum has to.
     #[inline(always)]
     pub fn number_at(&self, mu: f64, w: f64) -> Option<usize> {
-        if mu.is_nan() || mu < 2.0 {
+        if mu.is_nan() || mu < LEAST_MU {
             return None;
         }
         let key = ((mu.to_bits() >> KEY_SHIFT) - FIRST_KEY).min(KEYS as u64 - 1);
@@ -123,11 +131,14 @@ impl Tier {
 
 /// 4 ε: what disappears in the rounding.
 pub static FULL: Tier = Tier::new(4.0 * EPSILON, &[full_1::PATCHES, full_2::PATCHES, full_3::PATCHES]);
-/// For a tolerance of 1e-9.
+static E12: Tier = Tier::new(2.5e-13, &[e12_1::PATCHES, e12_2::PATCHES]);
 static E9: Tier = Tier::new(2.5e-10, &[e9_1::PATCHES, e9_2::PATCHES]);
+static E6: Tier = Tier::new(2.5e-7, &[e6::PATCHES]);
+static E3: Tier = Tier::new(2.5e-4, &[e3::PATCHES]);
+static E1: Tier = Tier::new(2.5e-2, &[e1::PATCHES]);
 
 /// All tiers, from the loosest to the finest.
-pub static ALL: [&Tier; 2] = [&E9, &FULL];
+pub static ALL: [&Tier; 6] = [&E1, &E3, &E6, &E9, &E12, &FULL];
 
 /// The cheapest tier whose truncation is at most a quarter of the tolerance; the finest if none is.
 pub fn within(tolerance: f64) -> &'static Tier {
