@@ -198,7 +198,7 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
 fn kind_of(enough: f64, g: f64, x: f64) -> f64 {
     // No branches: every part is cheap, and a lane cannot skip any.
     let y = x / g;
-    let is_inside = (g >= 1e-140) & (g <= 1e140) & (2.0 * y / g <= 1e250);
+    let is_inside = (1e-140..=1e140).contains(&g) & (2.0 * y / g <= 1e250);
     // An x so large leaves a second term that is not negligible for any g inside.
     let ratio = g * (0.25 * exp(0.5 * x.min(1400.0)).value());
     let is_first = (x < 1400.0) & (single_term::rest_to_first(ratio) <= enough);
