@@ -77,9 +77,10 @@ impl Region {
         let (half_azimuth, sin_azimuth) = azimuth(theta_r, phi_r);
         let [low_i, high_i] = theta_i.map(SinCos::of_degrees);
         let [low_r, high_r] = zenith.map(SinCos::of_degrees);
-        // sin θ_i − sin θ_r = 2 cos((θ_i + θ_r)/2) sin((θ_i − θ_r)/2): nothing cancels.
-        let half_sum = [theta_i[0] + zenith[0], theta_i[1] + zenith[1]]
-            .map(|sum| 2.0 * SinCos::of_degrees(sum / 2.0).cos);
+        // sin θ_i − sin θ_r = 2 cos((θ_i + θ_r)/2) sin((θ_i − θ_r)/2), the cosine as the sine of what is left
+        // of 90°: a sum of two angles next to 90° would round away what the cosine is made of.
+        let half_sum = [0, 1].map(|end| (90.0 - theta_i[end]) + (90.0 - zenith[end]));
+        let half_sum = half_sum.map(|left| 2.0 * SinCos::of_degrees(left / 2.0).sin);
         let half_difference = difference.map(|difference| SinCos::of_degrees(difference / 2.0).sin);
         let difference = Span::new(half_difference[0], half_difference[1])
             .times(Span::new(half_sum[1].max(0.0), half_sum[0]));
@@ -160,4 +161,54 @@ fn cos_magnitude(angles: [f64; 2], turned: [f64; 2]) -> Span {
 fn extremes([from, to]: [f64; 2], [a, b]: [f64; 2]) -> Span {
     let contains = |offset: f64| ((to - offset) / 180.0).floor() >= ((from - offset) / 180.0).ceil();
     Span::new(if contains(0.0) { 0.0 } else { a.min(b) }, if contains(90.0) { 1.0 } else { a.max(b) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Region, Span};
+    use crate::reflectance::directions::{Angles, Directions};
+    use crate::reflectance::numeric::EPSILON;
+    use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
+
+    /// Up to rounding.
+    fn holds(span: Span, value: f64) -> bool {
+        let room = 32.0 * EPSILON * value.abs();
+        span.least <= value + room && value - room <= span.most
+    }
+
+    #[test]
+    fn a_region_holds_its_directions() {
+        let mut state = 11u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / 9007199254740992.0
+        };
+        for round in 0..20_000 {
+            // Zeniths from 90° − 90° down to 90° − 1e-14°: the last doubles before 90° among them.
+            let mut zenith = || 90.0 - 90.0 * 10f64.powf(-16.0 * uniform());
+            let (theta_i, theta_r) = (zenith(), zenith());
+            let other = [zenith(), zenith()];
+            let sign = if round % 3 == 0 { -1.0 } else { 1.0 };
+            let phi = if round % 2 == 0 { 0.0 } else { 720.0 * uniform() - 360.0 };
+            let near = if round % 5 == 0 { other } else { [theta_i, theta_r] };
+            let directions = Directions::new(
+                Angles::Each([theta_i, near[0]].map(|angle| SourceZenith::new(angle).unwrap()).to_vec()),
+                Angles::Each(
+                    [theta_r, near[1]].map(|angle| ViewerZenith::new(sign * angle).unwrap()).to_vec(),
+                ),
+                Angles::One(Azimuth::new(phi).unwrap()),
+            )
+            .unwrap();
+            let region = Region::new(&directions.extents(0..2), None);
+            for geometry in directions.geometries() {
+                let at = format!("{theta_i} {theta_r} {near:?} {sign} {phi}");
+                assert!(holds(region.horizontal, geometry.horizontal), "{at}");
+                assert!(holds(region.cos_sum, geometry.cos_sum), "{at}");
+                assert!(holds(region.across, geometry.across().abs()), "{at}");
+                // Its terms may cancel, which the region allows for.
+                assert!(region.along.least <= geometry.along().abs(), "{at}");
+                assert!(region.along.most >= geometry.along().abs(), "{at}");
+            }
+        }
+    }
 }
