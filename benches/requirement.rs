@@ -37,18 +37,27 @@ fn report() {
     });
     println!("1 = wide::f64x4::exp, {exp:.2} ns an element");
     let paired = |from: f64, to: f64| -> Directions {
-        let zeniths = |_| (0..DIRECTIONS).map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64));
+        let zeniths =
+            |_| (0..DIRECTIONS).map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64));
         Directions::new(
             Angles::Each(zeniths(()).collect()),
-            Angles::Each((0..DIRECTIONS).map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64)).collect()),
+            Angles::Each(
+                (0..DIRECTIONS)
+                    .map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64))
+                    .collect(),
+            ),
             Angles::One(in_range(0.0)),
         )
         .expect("one length")
     };
     let swept = |from: f64, to: f64| -> Directions {
         let zeniths = (0..DIRECTIONS).map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64));
-        Directions::new(Angles::One(in_range(30.0)), Angles::Each(zeniths.collect()), Angles::One(in_range(0.0)))
-            .expect("one length")
+        Directions::new(
+            Angles::One(in_range(30.0)),
+            Angles::Each(zeniths.collect()),
+            Angles::One(in_range(0.0)),
+        )
+        .expect("one length")
     };
     // The same views in no order, as a measured data set has them.
     let shuffled = {
@@ -71,7 +80,9 @@ fn report() {
         ("mirror directions", paired(0.0, 80.0)),
         ("hemisphere in no order", shuffled),
     ] {
-        println!("\n{kind}:\n\n| scene | tolerance | diffuse | lobe | spike | all | by tolerance | left out | plan | predicted |");
+        println!(
+            "\n{kind}:\n\n| scene | tolerance | diffuse | lobe | spike | all | by tolerance | left out | plan | predicted |"
+        );
         println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
         for realistic in &SCENES {
             for tolerance in [1e-9, 1e-3] {
@@ -88,7 +99,12 @@ fn row(name: &str, scene: &Scene, directions: &Directions, tolerance: f64, exp: 
         let scene = Scene::new(parameters).expect("a scene that fits together");
         least(|| {
             let start = Instant::now();
-            black_box(evaluate(black_box(&scene), black_box(directions), Quantity::Radiance, Output::default()));
+            black_box(evaluate(
+                black_box(&scene),
+                black_box(directions),
+                Quantity::Radiance,
+                Output::default(),
+            ));
             start.elapsed().as_secs_f64() * 1e9 / DIRECTIONS as f64
         }) / exp
     };
