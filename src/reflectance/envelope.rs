@@ -6,7 +6,7 @@
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::fresnel::{Medium, Polarization};
-use super::numeric::lobe_series::envelope;
+use super::numeric::lobe_series::between;
 use super::quantity::Wavelength;
 use super::region::{Region, Span};
 use super::scene::{Component, Model, Scene};
@@ -202,8 +202,9 @@ fn lobe_series(roughness: RelativeRoughness, region: &Region) -> Span {
     }
     // g and x are known to a few ε, and the condition of S is not much above 1 + |ln S|.
     let blurred = |g: f64, x: f64| {
-        let (least, most) = envelope(g, x);
-        let slack = SLACK * (1.0 + least.abs());
+        let (low, high) = between(g, x);
+        let (least, most) = (low.ln(), high.ln());
+        let slack = SLACK * (1.0 + most.abs());
         (least - slack, most + slack)
     };
     if region.direction.is_some() {
@@ -233,4 +234,26 @@ fn sum(terms: &[Span]) -> Span {
     // An infinite bound is exact.
     let slack = |size: f64| if f64::is_finite(size) { SLACK * (1.0 + size) } else { 0.0 };
     Span { least: least - slack(low), most: most + slack(high) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::STEEPEST;
+    use crate::reflectance::numeric::lobe_series::{Method, evaluate};
+
+    #[test]
+    fn the_series_falls_no_faster_than_assumed() {
+        let mut least = f64::INFINITY;
+        for i in -80..80 {
+            let g = 10f64.powf(0.1 * f64::from(i));
+            for x in [0.0, 1e-3, 0.1, 1.0, 10.0, 1e3, 1e6] {
+                let ln = |g: f64| evaluate(Method::Series, g, x).estimate.value.ln();
+                let step = 0.01;
+                let slope = (ln(g * f64::exp(step)) - ln(g)) / step;
+                least = least.min(slope);
+            }
+        }
+        // And the constant is not idle.
+        assert!(-STEEPEST < least && least < -1.1, "{least}");
+    }
 }

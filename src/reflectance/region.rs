@@ -77,12 +77,14 @@ impl Region {
         let (half_azimuth, sin_azimuth) = azimuth(theta_r, phi_r);
         let [low_i, high_i] = theta_i.map(SinCos::of_degrees);
         let [low_r, high_r] = zenith.map(SinCos::of_degrees);
-        // sin θ_i − sin θ_r = 2 cos((θ_i + θ_r)/2) sin((θ_i − θ_r)/2): nothing cancels.
-        let half_sum = [theta_i[0] + zenith[0], theta_i[1] + zenith[1]]
-            .map(|sum| 2.0 * SinCos::of_degrees(sum / 2.0).cos);
-        let half_difference = difference.map(|difference| SinCos::of_degrees(difference / 2.0).sin);
-        let difference = Span::new(half_difference[0], half_difference[1])
-            .times(Span::new(half_sum[1].max(0.0), half_sum[0]));
+        let (cos_i, cos_r) = (Span::new(high_i.cos, low_i.cos), Span::new(high_r.cos, low_r.cos));
+        let cos_sum = cos_i.plus(cos_r);
+        // sin θ_i − sin θ_r = q tan((θ_i − θ_r)/2): nothing cancels.
+        let [low, high] = difference.map(|difference| {
+            let SinCos { sin, cos } = SinCos::of_degrees(difference / 2.0);
+            sin / cos
+        });
+        let difference = Span::new(low, high).times(cos_sum);
         let sin_r = Span::new(low_r.sin, high_r.sin);
         let sines = Span::new(low_i.sin, high_i.sin).times(sin_r).times(half_azimuth);
         let (straight, aside) = (difference.magnitude().squared(), sines);
@@ -95,16 +97,7 @@ impl Region {
         // The two terms may cancel; each is known to a few ε of the largest.
         let slack = 16.0 * EPSILON * (difference.magnitude().most + 2.0 * back.most);
         let along = Span::new(along.least - slack, along.most + slack).magnitude();
-        let (cos_i, cos_r) = (Span::new(high_i.cos, low_i.cos), Span::new(high_r.cos, low_r.cos));
-        Self {
-            cos_i,
-            cos_r,
-            cos_sum: cos_i.plus(cos_r),
-            horizontal,
-            along,
-            across: sin_r.times(sin_azimuth),
-            direction,
-        }
+        Self { cos_i, cos_r, cos_sum, horizontal, along, across: sin_r.times(sin_azimuth), direction }
     }
 
     /// 4 cos² θ′ = q² + v_xy²/k²
@@ -160,4 +153,84 @@ fn cos_magnitude(angles: [f64; 2], turned: [f64; 2]) -> Span {
 fn extremes([from, to]: [f64; 2], [a, b]: [f64; 2]) -> Span {
     let contains = |offset: f64| ((to - offset) / 180.0).floor() >= ((from - offset) / 180.0).ceil();
     Span::new(if contains(0.0) { 0.0 } else { a.min(b) }, if contains(90.0) { 1.0 } else { a.max(b) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Region, Span};
+    use crate::reflectance::directions::{Angles, Directions};
+    use crate::reflectance::numeric::EPSILON;
+    use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
+    use crate::reflectance::shadowing::Shadowing;
+
+    #[test]
+    fn every_direction_lies_within_its_region() {
+        let mut state = 11u64;
+        let mut between = move |from: f64, to: f64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            from + (to - from) * ((state >> 11) as f64 / 9007199254740992.0)
+        };
+        for round in 0..4000 {
+            let width = 10f64.powf(between(-14.0, 2.0));
+            let centre = [between(0.0, 90.0), between(-90.0, 90.0), between(-360.0, 360.0)];
+            // Mirror directions, and corners of the angles.
+            let centre = match round % 4 {
+                0 => [centre[0], centre[0], 0.0],
+                1 => [90.0, -90.0, 180.0],
+                _ => centre,
+            };
+            let count = [1, 2, 9][round % 3];
+            let angles: Vec<[f64; 3]> = (0..count)
+                .map(|_| {
+                    let shift = between(-width, width);
+                    // Source and viewer together in half of the rounds.
+                    let other = if round % 2 == 0 { shift } else { between(-width, width) };
+                    [
+                        (centre[0] + shift).clamp(0.0, 90.0),
+                        (centre[1] + other).clamp(-90.0, 90.0),
+                        (centre[2] + between(-width, width)).clamp(-360.0, 360.0),
+                    ]
+                })
+                .collect();
+            let directions = Directions::new(
+                Angles::Each(angles.iter().map(|angle| SourceZenith::new(angle[0]).unwrap()).collect()),
+                Angles::Each(angles.iter().map(|angle| ViewerZenith::new(angle[1]).unwrap()).collect()),
+                Angles::Each(angles.iter().map(|angle| Azimuth::new(angle[2]).unwrap()).collect()),
+            )
+            .unwrap();
+            let region = Region::new(&directions.extents(0..count), None);
+            for geometry in directions.geometries() {
+                // The roundings that callers allow for; differences of sines are known to an ε of 1.
+                let holds = |span: Span, value: f64, absolute: f64| {
+                    let slack = 64.0 * EPSILON;
+                    span.least * (1.0 - slack) - absolute <= value
+                        && value <= span.most * (1.0 + slack) + absolute
+                };
+                assert!(holds(region.cos_i, geometry.cos_i, 0.0), "{angles:?}");
+                assert!(holds(region.cos_r, geometry.cos_r, 0.0), "{angles:?}");
+                assert!(
+                    holds(region.horizontal, geometry.horizontal, 0.0),
+                    "{angles:?} {region:?} {geometry:?}"
+                );
+                assert!(
+                    holds(region.along, geometry.along().abs(), 4.0 * EPSILON),
+                    "{:?} {:e}",
+                    region.along,
+                    geometry.along()
+                );
+                assert!(holds(region.across, geometry.across().abs(), 0.0), "{angles:?} {region:?}");
+                // The corner of a region may be both grazing, where neither has a limit.
+                if geometry.cos_sum > 0.0 && region.cos_sum.least > 0.0 {
+                    assert!(holds(region.facet_factor(), geometry.facet_factor(), 0.0), "{angles:?}");
+                    assert!(holds(region.alpha(), geometry.alpha(), 0.0), "{angles:?}");
+                    let shadowing = Shadowing::VGroove.factor(&geometry);
+                    let cosine = geometry.cos_i.min(geometry.cos_r);
+                    assert!(
+                        shadowing <= region.groove().most * cosine * (1.0 + 64.0 * EPSILON),
+                        "{angles:?}"
+                    );
+                }
+            }
+        }
+    }
 }
