@@ -31,7 +31,9 @@ impl Random {
     }
 
     fn index(&mut self, count: usize) -> usize {
-        ((self.unit() * count as f64) as usize).min(count - 1)
+        self.unit();
+        // The low bits of the state repeat soon; these do not.
+        usize::try_from(self.0 >> 40).expect("24 bits") % count
     }
 }
 
@@ -117,7 +119,7 @@ fn directions(random: &mut Random) -> Directions {
                 let theta = random.between(0.0, 89.0);
                 (theta, theta, 0.0)
             }
-            2 => (fixed, fixed + width * (2.0 * (index as f64 + 0.5) / f64::from(count) - 1.0), azimuth),
+            2 => (fixed, fixed + width * (2.0 * (f64::from(index) + 0.5) / f64::from(count) - 1.0), azimuth),
             3 => (fixed, fixed + width * random.between(-1.0, 1.0), width * random.between(-1.0, 1.0)),
             _ => (
                 [0.0, 90.0, fixed][random.index(3)],
