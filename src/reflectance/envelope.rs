@@ -7,12 +7,12 @@
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::fresnel::{Medium, Polarization};
 use super::numeric::lobe_series::between;
-use super::quantity::{SpecularScale, Wavelength};
+use super::quantity::Wavelength;
 use super::region::{Region, Span};
 use super::scene::{Component, Model, Scene};
 use super::shadowing::Shadowing;
+use super::unified;
 use super::view::View;
-use super::{torrance_sparrow, unified};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_4, PI};
 
 /// A component's logarithm is −∞ here: it is exactly 0.
@@ -57,12 +57,7 @@ impl Envelopes {
             without_fresnel: !diffuse || surface.medium == Medium::PerfectConductor,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
-            facets: scene.facet_slope_radians.map(|sigma_alpha| {
-                let scale = surface
-                    .specular_scale
-                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), SpecularScale::get);
-                (sigma_alpha, libm::log(0.25 * scale))
-            }),
+            facets: scene.facets.map(|facets| (facets.sigma_alpha, libm::log(0.25 * facets.scale))),
             shares: p.model == Model::Unified && surface.specular_scale.is_none(),
         }
     }

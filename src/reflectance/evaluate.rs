@@ -155,13 +155,12 @@ impl<'a> Answer<'a> {
     ) {
         self.columns.extend(values, bounds);
         let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
-        let (mut largest, mut least) = (0.0, f64::MAX);
-        for (&value, &bound) in values.iter().zip(bounds) {
-            largest = if bound > largest { bound } else { largest };
-            least = if value < least { value } else { least };
-        }
         let share = self.columns.omitted_share;
-        if largest + share > tolerance || least == 0.0 {
+        let mut needs_a_word = false;
+        for (&value, &bound) in values.iter().zip(bounds) {
+            needs_a_word |= (bound + share > tolerance) | (value == 0.0);
+        }
+        if needs_a_word {
             for (place, (&value, &bound)) in values.iter().zip(bounds).enumerate() {
                 let bound = bound + share;
                 if bound > tolerance {

@@ -12,10 +12,10 @@ use super::numeric::lobe_series::lanes::Choice;
 use super::numeric::lobe_series::patches::{self, Tier};
 use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
-use super::quantity::{SpecularScale, Wavelength};
-use super::scene::{Component, Model, Scene};
+use super::quantity::Wavelength;
+use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::Shadowing;
-use super::torrance_sparrow::{self, FacetLobe};
+use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
 
@@ -138,12 +138,9 @@ impl<'a> Kernel<'a> {
             shadowing,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
-            facets: scene.facet_slope_radians.map(|sigma_alpha| FacetLobe {
+            facets: scene.facets.map(|FacetParameters { sigma_alpha, scale, .. }| FacetLobe {
                 sigma_alpha,
-                specular_scale: p
-                    .surface
-                    .specular_scale
-                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), SpecularScale::get),
+                specular_scale: scale,
                 medium: p.surface.medium,
                 polarization: p.illumination.polarization,
                 shadowing,

@@ -60,9 +60,9 @@ pub(super) fn slope_width(scene: &Scene) -> Option<f64> {
         return heights.map(|(height, length)| 2.0 * height.get() / length.get());
     }
     // (79) has no inverse from 90°/√2 on: facets of every slope.
-    scene.facet_slope_radians.map(|sigma| {
-        if SQRT_2 * sigma < FRAC_PI_2 {
-            2.0 * roughness::height_to_length_ratio(sigma).unwrap_or(0.0)
+    scene.facets.map(|facets| {
+        if SQRT_2 * facets.sigma_alpha < FRAC_PI_2 {
+            2.0 * roughness::height_to_length_ratio(facets.sigma_alpha).unwrap_or(0.0)
         } else {
             f64::INFINITY
         }

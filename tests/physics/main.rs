@@ -5,8 +5,10 @@ mod hankel;
 mod invariance;
 mod limits;
 mod omission;
+mod random;
 mod realistic;
 mod savings;
+mod tolerance;
 
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::EPSILON;

@@ -66,13 +66,15 @@ fn is_bounded(exponent: f64) -> bool {
 /// The patch that serves at all of the points, if one does: patches are convex in μ and w.
 #[inline(always)]
 fn common_patch(tier: &Tier, mu: &[f64], w: &[f64], exponent: &[f64]) -> Option<&'static Patch> {
-    let (mut least, mut most) = ([f64::MAX; 2], [0.0f64; 2]);
+    // Positive doubles are ordered like their bits, whose extremes are found in vector lanes.
+    let (mut least, mut most) = ([u64::MAX; 2], [0; 2]);
     let mut bounded = true;
     for ((&mu, &w), &exponent) in mu.iter().zip(w).zip(exponent) {
-        least = [if mu < least[0] { mu } else { least[0] }, if w < least[1] { w } else { least[1] }];
-        most = [if mu > most[0] { mu } else { most[0] }, if w > most[1] { w } else { most[1] }];
+        least = [least[0].min(mu.to_bits()), least[1].min(w.to_bits())];
+        most = [most[0].max(mu.to_bits()), most[1].max(w.to_bits())];
         bounded &= is_bounded(exponent);
     }
+    let (least, most) = (least.map(f64::from_bits), most.map(f64::from_bits));
     let number = tier.number_at(least[0], least[1]).filter(|_| bounded)?;
     let others = [(least[0], most[1]), (most[0], least[1]), (most[0], most[1])];
     let common = others.into_iter().all(|(mu, w)| tier.number_at(mu, w) == Some(number));

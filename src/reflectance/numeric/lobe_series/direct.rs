@@ -1,29 +1,29 @@
 //! The sum itself in vector lanes, for the points of a batch where few terms matter.
 
-use super::lanes::{Batch, LANES, Lanes, Places};
+use super::lanes::{Batch, Lanes, Places};
 use super::patches::Tier;
 use super::series::stirling_remainder;
 use crate::reflectance::numeric::elementary::{exp, ln};
 
-/// Points that walk through their terms together: as long as the one with the most terms.
-const BLOCK: usize = 32;
-/// One number a point of the block.
-type Block = [f64; BLOCK];
+/// Points that walk through their terms together: as long as the one with the most terms. A few points by
+/// themselves would pay for lanes without a point.
+const MANY: usize = 32;
+const FEW: usize = 8;
 
 /// Σ t_m/t_c with its moments, and the walk through the terms.
-struct Walk {
-    g: Block,
-    x: Block,
-    centre: Block,
-    sum: Block,
+struct Walk<const BLOCK: usize> {
+    g: [f64; BLOCK],
+    x: [f64; BLOCK],
+    centre: [f64; BLOCK],
+    sum: [f64; BLOCK],
     /// Σ (m − g) t
-    first: Block,
+    first: [f64; BLOCK],
     /// Σ t/m
-    inverse: Block,
-    m: Block,
-    term: Block,
+    inverse: [f64; BLOCK],
+    m: [f64; BLOCK],
+    term: [f64; BLOCK],
     /// Bound of what is left of the side that is being walked, over the sum.
-    left: Block,
+    left: [f64; BLOCK],
     /// A side with less left is done; its lane waits for the others.
     enough: f64,
 }
@@ -32,43 +32,53 @@ struct Walk {
 /// truncation.
 #[inline(always)]
 pub(super) fn evaluate(tier: &Tier, places: &Places, g: &[f64], x: &[f64], mu: &Lanes, batch: &mut Batch) {
-    for places in places.all().chunks(BLOCK) {
-        let mut walk = Walk::new(0.25 * tier.truncation);
-        for (lane, &place) in places.iter().enumerate() {
-            let place = usize::from(place);
-            walk.g[lane] = g[place];
-            walk.x[lane] = x[place];
-            walk.centre[lane] = mu[place].round().max(1.0);
-        }
-        walk.start();
-        while walk.up() {}
-        walk.turn();
-        while walk.down() {}
-        let mut remainder = [0.0; BLOCK];
-        for (remainder, &centre) in remainder.iter_mut().zip(&walk.centre) {
-            *remainder = stirling_remainder(centre);
-        }
-        for lane in 0..BLOCK {
-            let (g, x, m) = (walk.g[lane], walk.x[lane], walk.centre[lane]);
-            let largest = exp(-(deviance(m, g) + (x / m + remainder[lane])));
-            let root = (2.0 * core::f64::consts::PI * m).sqrt();
-            walk.term[lane] = largest.significand / (m * root) * walk.sum[lane];
-            walk.m[lane] = largest.exponent;
-            walk.first[lane] = (walk.first[lane] / walk.sum[lane]).abs();
-            walk.inverse[lane] = x * (walk.inverse[lane] / walk.sum[lane]);
-        }
-        for (lane, &place) in places.iter().enumerate() {
-            let place = usize::from(place);
-            batch.significand[place] = walk.term[lane];
-            batch.exponent[place] = walk.m[lane];
-            batch.condition_g[place] = walk.first[lane];
-            batch.condition_x[place] = walk.inverse[lane];
-            batch.truncation[place] = 0.5 * tier.truncation;
+    for places in places.all().chunks(MANY) {
+        if places.len() > FEW {
+            sum::<MANY>(tier, places, g, x, mu, batch);
+        } else {
+            sum::<FEW>(tier, places, g, x, mu, batch);
         }
     }
 }
 
-impl Walk {
+/// The same at up to `BLOCK` places.
+#[inline(always)]
+fn sum<const BLOCK: usize>(tier: &Tier, places: &[u8], g: &[f64], x: &[f64], mu: &Lanes, batch: &mut Batch) {
+    let mut walk = Walk::<BLOCK>::new(0.25 * tier.truncation);
+    for (lane, &place) in places.iter().enumerate() {
+        let place = usize::from(place);
+        walk.g[lane] = g[place];
+        walk.x[lane] = x[place];
+        walk.centre[lane] = mu[place].round().max(1.0);
+    }
+    walk.start();
+    while walk.up() {}
+    walk.turn();
+    while walk.down() {}
+    let mut remainder = [0.0; BLOCK];
+    for (remainder, &centre) in remainder.iter_mut().zip(&walk.centre) {
+        *remainder = stirling_remainder(centre);
+    }
+    for lane in 0..BLOCK {
+        let (g, x, m) = (walk.g[lane], walk.x[lane], walk.centre[lane]);
+        let largest = exp(-(deviance(m, g) + (x / m + remainder[lane])));
+        let root = (2.0 * core::f64::consts::PI * m).sqrt();
+        walk.term[lane] = largest.significand / (m * root) * walk.sum[lane];
+        walk.m[lane] = largest.exponent;
+        walk.first[lane] = (walk.first[lane] / walk.sum[lane]).abs();
+        walk.inverse[lane] = x * (walk.inverse[lane] / walk.sum[lane]);
+    }
+    for (lane, &place) in places.iter().enumerate() {
+        let place = usize::from(place);
+        batch.significand[place] = walk.term[lane];
+        batch.exponent[place] = walk.m[lane];
+        batch.condition_g[place] = walk.first[lane];
+        batch.condition_x[place] = walk.inverse[lane];
+        batch.truncation[place] = 0.5 * tier.truncation;
+    }
+}
+
+impl<const BLOCK: usize> Walk<BLOCK> {
     /// Lanes without a point walk through g = 1, x = 0.
     const fn new(enough: f64) -> Self {
         let (zero, one) = ([0.0; BLOCK], [1.0; BLOCK]);
@@ -173,5 +183,3 @@ fn deviance(m: f64, g: f64) -> f64 {
     let far = m * ln(m / g) - difference;
     if v2 < 0.01 { near } else { far }
 }
-
-const _: () = assert!(LANES.is_multiple_of(BLOCK), "whole blocks");

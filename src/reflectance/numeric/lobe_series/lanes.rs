@@ -161,15 +161,19 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
     let count = g.len().min(x.len()).min(LANES);
     let (g, x) = (&g[..count], &x[..count]);
     let mut kinds = [kind::SADDLE; LANES];
-    let (mut least, mut most) = (kind::LEFT, kind::SADDLE);
     for place in 0..count {
-        let kind = kind_of(enough, g[place], x[place]);
-        kinds[place] = kind;
-        least = if kind < least { kind } else { least };
-        most = if kind > most { kind } else { most };
+        kinds[place] = kind_of(enough, g[place], x[place]);
     }
+    let has = |kind: f64| {
+        let mut has = false;
+        for &of_place in &kinds[..count] {
+            has |= of_place == kind;
+        }
+        has
+    };
+    let (has_rough, has_first) = (has(kind::ROUGH), has(kind::FIRST));
     batch.method[..count].fill(Method::Uniform);
-    if most > kind::SADDLE {
+    if has_rough || has_first || has(kind::LEFT) {
         for place in 0..count {
             batch.method[place] = match kinds[place] {
                 kind::SADDLE => Method::Uniform,
@@ -179,13 +183,13 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
             };
         }
     }
-    if least == kind::SADDLE {
+    if has(kind::SADDLE) {
         by_saddle::evaluate(choice, g, x, batch);
     }
-    if most >= kind::ROUGH {
+    if has_rough {
         select(kind::ROUGH, rough_form, &kinds, g, x, batch);
     }
-    if most >= kind::FIRST {
+    if has_first {
         select(kind::FIRST, first_term, &kinds, g, x, batch);
     }
 }
@@ -194,7 +198,7 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
 fn kind_of(enough: f64, g: f64, x: f64) -> f64 {
     // No branches: every part is cheap, and a lane cannot skip any.
     let y = x / g;
-    let is_inside = (g >= 1e-140) & (g <= 1e140) & (2.0 * y / g <= 1e250);
+    let is_inside = (1e-140..=1e140).contains(&g) & (2.0 * y / g <= 1e250);
     // An x so large leaves a second term that is not negligible for any g inside.
     let ratio = g * (0.25 * exp(0.5 * x.min(1400.0)).value());
     let is_first = (x < 1400.0) & (single_term::rest_to_first(ratio) <= enough);

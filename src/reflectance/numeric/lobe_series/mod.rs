@@ -138,7 +138,7 @@ pub fn evaluate_within(tier: &Tier, g: f64, x: f64) -> LobeSeries {
 /// A batch of one point; none where it is left to the methods for one point.
 fn alone(choice: Choice<'_>, g: f64, x: f64) -> Option<LobeSeries> {
     let mut batch = Batch::new();
-    lanes::evaluate(InstructionSet::Portable, choice, &[g], &[x], &mut batch);
+    lanes::evaluate(InstructionSet::widest(), choice, &[g], &[x], &mut batch);
     batch.get(0)
 }
 
