@@ -1,38 +1,41 @@
 //! What a direction costs, predicted from what has to be evaluated in it.
 //!
-//! The unit is one vectorised exp of f64, about 1.3 ns where the numbers were measured: on one thread, with AVX2, per direction
-//! of a batch of 20,000 (`cargo bench --bench requirement`). They say which of two requests is dearer and by what factor, within
-//! a factor of two; a request's own overhead is not in them.
+//! The unit is one exp() of the `wide` crate in vectors of four, 3.7 ns where the numbers were fitted: one direction of a batch of
+//! 20,000 on one thread, with AVX2 (`cargo bench --bench requirement`). They say which of two requests is dearer and by what
+//! factor, within a factor of two; a request's own overhead is not in them.
 
 use super::evaluate::EvaluatedBy;
 use super::fresnel::Medium;
 use super::numeric::lobe_series::Method;
 use super::scene::{Component, Model, Scene};
+use super::shadowing::Shadowing;
 
-/// Angles to geometry, the sum of the components and its bound.
-const DIRECTION: f64 = 60.0;
+/// Angles to geometry, the sum of the components and its bound, direction by direction
+const DIRECTION: f64 = 35.0;
+/// The same in vector lanes, the factors of the lobe with it
+const LANES_ALONE: f64 = 10.0;
 /// (57)
-const DIFFUSE_LOBE: f64 = 15.0;
+const DIFFUSE_LOBE: f64 = 10.0;
 /// (70) without F′
-const FACET_LOBE: f64 = 60.0;
+const FACET_LOBE: f64 = 20.0;
 /// (47) without F′: the exponential and two sincs with their errors
-const SPIKE: f64 = 130.0;
+const SPIKE: f64 = 60.0;
 /// F′ of a refractive index, with its error
-const FRESNEL: f64 = 80.0;
+const FRESNEL: f64 = 20.0;
 /// The factors of the lobe of (47) around S
-const HEIGHT_LOBE: f64 = 60.0;
+const HEIGHT_LOBE: f64 = 20.0;
 /// One term in closed form, in vector lanes
 const CLOSED: f64 = 10.0;
 /// The saddle with a polynomial, in vector lanes
-const SADDLE: f64 = 30.0;
+const SADDLE: f64 = 20.0;
 /// The sum by `auto`, in vector lanes: a start and a term
-const LANE_SUM: f64 = 30.0;
-const LANE_TERM: f64 = 1.5;
+const LANE_SUM: f64 = 20.0;
+const LANE_TERM: f64 = 2.0;
 /// The sum or a form compared with it, alone: a start and a term
-const SUM: f64 = 250.0;
-const TERM: f64 = 8.0;
+const SUM: f64 = 150.0;
+const TERM: f64 = 3.0;
 /// The first 100 terms
-const HUNDRED_TERMS: f64 = 1300.0;
+const HUNDRED_TERMS: f64 = 600.0;
 /// Terms of the sum: ± 9 standard deviations and a few, with strides beyond so many.
 const DEVIATIONS: f64 = 18.0;
 const MOST_TERMS: f64 = 150.0;
@@ -72,6 +75,13 @@ impl Lobe {
 /// The cost of these components in one direction.
 pub(super) fn direction(scene: &Scene, components: &[Component], lobe: Option<Lobe>) -> f64 {
     let p = scene.parameters();
+    if let (Some(lobe), [Component::SpecularLobe]) = (lobe, components)
+        && p.accuracy.method == Method::Auto
+        && p.surface.medium == Medium::PerfectConductor
+        && scene.shadowing() == Shadowing::None
+    {
+        return LANES_ALONE + lobe.cost(Method::Auto);
+    }
     let height_lobe = p.model == Model::BeckmannSpizzichino;
     let parts: f64 = components
         .iter()
@@ -89,11 +99,11 @@ pub(super) fn direction(scene: &Scene, components: &[Component], lobe: Option<Lo
 
 /// The cost of every component in one direction, the lobe of (47) by its sum.
 pub(super) fn full(scene: &Scene, components: &[Component], lobe: Option<Lobe>) -> f64 {
-    let summed = match lobe {
-        Some(lobe) => lobe.summed() - lobe.cost(scene.parameters().accuracy.method),
-        None => 0.0,
-    };
-    direction(scene, components, lobe) + summed
+    let parts = direction(scene, components, None);
+    match lobe {
+        Some(lobe) if components.contains(&Component::SpecularLobe) => parts + lobe.summed(),
+        _ => parts,
+    }
 }
 
 /// F′, once for all specular components.

@@ -6,13 +6,13 @@
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
 use super::fresnel::{Medium, Polarization};
-use super::numeric::lobe_series::envelope;
-use super::quantity::{SpecularScale, Wavelength};
+use super::numeric::lobe_series::between;
+use super::quantity::Wavelength;
 use super::region::{Region, Span};
 use super::scene::{Component, Model, Scene};
 use super::shadowing::Shadowing;
+use super::unified;
 use super::view::View;
-use super::{torrance_sparrow, unified};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_4, PI};
 
 /// A component's logarithm is −∞ here: it is exactly 0.
@@ -57,12 +57,7 @@ impl Envelopes {
             without_fresnel: !diffuse || surface.medium == Medium::PerfectConductor,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
-            facets: scene.facet_slope_radians.map(|sigma_alpha| {
-                let scale = surface
-                    .specular_scale
-                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), SpecularScale::get);
-                (sigma_alpha, libm::log(0.25 * scale))
-            }),
+            facets: scene.facets.map(|facets| (facets.sigma_alpha, libm::log(0.25 * facets.scale))),
             shares: p.model == Model::Unified && surface.specular_scale.is_none(),
         }
     }
@@ -207,8 +202,9 @@ fn lobe_series(roughness: RelativeRoughness, region: &Region) -> Span {
     }
     // g and x are known to a few ε, and the condition of S is not much above 1 + |ln S|.
     let blurred = |g: f64, x: f64| {
-        let (least, most) = envelope(g, x);
-        let slack = SLACK * (1.0 + least.abs());
+        let (low, high) = between(g, x);
+        let (least, most) = (low.ln(), high.ln());
+        let slack = SLACK * (1.0 + most.abs());
         (least - slack, most + slack)
     };
     if region.direction.is_some() {
@@ -238,4 +234,26 @@ fn sum(terms: &[Span]) -> Span {
     // An infinite bound is exact.
     let slack = |size: f64| if f64::is_finite(size) { SLACK * (1.0 + size) } else { 0.0 };
     Span { least: least - slack(low), most: most + slack(high) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::STEEPEST;
+    use crate::reflectance::numeric::lobe_series::{Method, evaluate};
+
+    #[test]
+    fn the_series_falls_no_faster_than_assumed() {
+        let mut least = f64::INFINITY;
+        for i in -80..80 {
+            let g = 10f64.powf(0.1 * f64::from(i));
+            for x in [0.0, 1e-3, 0.1, 1.0, 10.0, 1e3, 1e6] {
+                let ln = |g: f64| evaluate(Method::Series, g, x).estimate.value.ln();
+                let step = 0.01;
+                let slope = (ln(g * f64::exp(step)) - ln(g)) / step;
+                least = least.min(slope);
+            }
+        }
+        // And the constant is not idle.
+        assert!(-STEEPEST < least && least < -1.1, "{least}");
+    }
 }

@@ -12,10 +12,10 @@ use super::numeric::lobe_series::lanes::Choice;
 use super::numeric::lobe_series::patches::{self, Tier};
 use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
-use super::quantity::{SpecularScale, Wavelength};
-use super::scene::{Component, Model, Scene};
+use super::quantity::Wavelength;
+use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::Shadowing;
-use super::torrance_sparrow::{self, FacetLobe};
+use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
 
@@ -146,12 +146,9 @@ impl<'a> Kernel<'a> {
             shadowing,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
-            facets: scene.facet_slope_radians.map(|sigma_alpha| FacetLobe {
+            facets: scene.facets.map(|FacetParameters { sigma_alpha, scale, .. }| FacetLobe {
                 sigma_alpha,
-                specular_scale: p
-                    .surface
-                    .specular_scale
-                    .map_or_else(|| torrance_sparrow::normalized_scale(sigma_alpha), SpecularScale::get),
+                specular_scale: scale,
                 medium: p.surface.medium,
                 polarization: p.illumination.polarization,
                 shadowing,
@@ -192,6 +189,11 @@ impl<'a> Kernel<'a> {
     /// g of (34) between these directions, where the scene has heights and a wavelength.
     pub(super) fn g(&self, geometry: &Geometry) -> Option<f64> {
         self.roughness.map(|roughness| roughness.g(geometry))
+    }
+
+    /// Whether the spike is evaluated.
+    pub(super) fn has_spike(&self) -> bool {
+        self.scene.evaluated().contains(&Component::SpecularSpike)
     }
 
     /// Whether a batch gives the best there is.

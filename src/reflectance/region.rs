@@ -77,13 +77,14 @@ impl Region {
         let (half_azimuth, sin_azimuth) = azimuth(theta_r, phi_r);
         let [low_i, high_i] = theta_i.map(SinCos::of_degrees);
         let [low_r, high_r] = zenith.map(SinCos::of_degrees);
-        // sin θ_i − sin θ_r = 2 cos((θ_i + θ_r)/2) sin((θ_i − θ_r)/2), the cosine as the sine of what is left
-        // of 90°: a sum of two angles next to 90° would round away what the cosine is made of.
-        let half_sum = [0, 1].map(|end| (90.0 - theta_i[end]) + (90.0 - zenith[end]));
-        let half_sum = half_sum.map(|left| 2.0 * SinCos::of_degrees(left / 2.0).sin);
-        let half_difference = difference.map(|difference| SinCos::of_degrees(difference / 2.0).sin);
-        let difference = Span::new(half_difference[0], half_difference[1])
-            .times(Span::new(half_sum[1].max(0.0), half_sum[0]));
+        let (cos_i, cos_r) = (Span::new(high_i.cos, low_i.cos), Span::new(high_r.cos, low_r.cos));
+        let cos_sum = cos_i.plus(cos_r);
+        // sin θ_i − sin θ_r = q tan((θ_i − θ_r)/2): nothing cancels.
+        let [low, high] = difference.map(|difference| {
+            let SinCos { sin, cos } = SinCos::of_degrees(difference / 2.0);
+            sin / cos
+        });
+        let difference = Span::new(low, high).times(cos_sum);
         let sin_r = Span::new(low_r.sin, high_r.sin);
         let sines = Span::new(low_i.sin, high_i.sin).times(sin_r).times(half_azimuth);
         let (straight, aside) = (difference.magnitude().squared(), sines);
@@ -96,16 +97,7 @@ impl Region {
         // The two terms may cancel; each is known to a few ε of the largest.
         let slack = 16.0 * EPSILON * (difference.magnitude().most + 2.0 * back.most);
         let along = Span::new(along.least - slack, along.most + slack).magnitude();
-        let (cos_i, cos_r) = (Span::new(high_i.cos, low_i.cos), Span::new(high_r.cos, low_r.cos));
-        Self {
-            cos_i,
-            cos_r,
-            cos_sum: cos_i.plus(cos_r),
-            horizontal,
-            along,
-            across: sin_r.times(sin_azimuth),
-            direction,
-        }
+        Self { cos_i, cos_r, cos_sum, horizontal, along, across: sin_r.times(sin_azimuth), direction }
     }
 
     /// 4 cos² θ′ = q² + v_xy²/k²
@@ -168,46 +160,76 @@ mod tests {
     use super::{Region, Span};
     use crate::reflectance::directions::{Angles, Directions};
     use crate::reflectance::numeric::EPSILON;
-    use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
-
-    /// Up to rounding.
-    fn holds(span: Span, value: f64) -> bool {
-        let room = 32.0 * EPSILON * value.abs();
-        span.least <= value + room && value - room <= span.most
-    }
+    use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
+    use crate::reflectance::shadowing::Shadowing;
 
     #[test]
-    fn a_region_holds_its_directions() {
+    fn every_direction_lies_within_its_region() {
         let mut state = 11u64;
-        let mut uniform = || {
+        let mut between = move |from: f64, to: f64| {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / 9007199254740992.0
+            from + (to - from) * ((state >> 11) as f64 / 9007199254740992.0)
         };
-        for round in 0..20_000 {
-            // Zeniths from 90° − 90° down to 90° − 1e-14°: the last doubles before 90° among them.
-            let mut zenith = || 90.0 - 90.0 * 10f64.powf(-16.0 * uniform());
-            let (theta_i, theta_r) = (zenith(), zenith());
-            let other = [zenith(), zenith()];
-            let sign = if round % 3 == 0 { -1.0 } else { 1.0 };
-            let phi = if round % 2 == 0 { 0.0 } else { 720.0 * uniform() - 360.0 };
-            let near = if round % 5 == 0 { other } else { [theta_i, theta_r] };
+        for round in 0..4000 {
+            let width = 10f64.powf(between(-14.0, 2.0));
+            let centre = [between(0.0, 90.0), between(-90.0, 90.0), between(-360.0, 360.0)];
+            // Mirror directions, and corners of the angles.
+            let centre = match round % 4 {
+                0 => [centre[0], centre[0], 0.0],
+                1 => [90.0, -90.0, 180.0],
+                _ => centre,
+            };
+            let count = [1, 2, 9][round % 3];
+            let angles: Vec<[f64; 3]> = (0..count)
+                .map(|_| {
+                    let shift = between(-width, width);
+                    // Source and viewer together in half of the rounds.
+                    let other = if round % 2 == 0 { shift } else { between(-width, width) };
+                    [
+                        (centre[0] + shift).clamp(0.0, 90.0),
+                        (centre[1] + other).clamp(-90.0, 90.0),
+                        (centre[2] + between(-width, width)).clamp(-360.0, 360.0),
+                    ]
+                })
+                .collect();
             let directions = Directions::new(
-                Angles::Each([theta_i, near[0]].map(|angle| SourceZenith::new(angle).unwrap()).to_vec()),
-                Angles::Each(
-                    [theta_r, near[1]].map(|angle| ViewerZenith::new(sign * angle).unwrap()).to_vec(),
-                ),
-                Angles::One(Azimuth::new(phi).unwrap()),
+                Angles::Each(angles.iter().map(|angle| SourceZenith::new(angle[0]).unwrap()).collect()),
+                Angles::Each(angles.iter().map(|angle| ViewerZenith::new(angle[1]).unwrap()).collect()),
+                Angles::Each(angles.iter().map(|angle| Azimuth::new(angle[2]).unwrap()).collect()),
             )
             .unwrap();
-            let region = Region::new(&directions.extents(0..2), None);
+            let region = Region::new(&directions.extents(0..count), None);
             for geometry in directions.geometries() {
-                let at = format!("{theta_i} {theta_r} {near:?} {sign} {phi}");
-                assert!(holds(region.horizontal, geometry.horizontal), "{at}");
-                assert!(holds(region.cos_sum, geometry.cos_sum), "{at}");
-                assert!(holds(region.across, geometry.across().abs()), "{at}");
-                // Its terms may cancel, which the region allows for.
-                assert!(region.along.least <= geometry.along().abs(), "{at}");
-                assert!(region.along.most >= geometry.along().abs(), "{at}");
+                // The roundings that callers allow for; differences of sines are known to an ε of 1.
+                let holds = |span: Span, value: f64, absolute: f64| {
+                    let slack = 64.0 * EPSILON;
+                    span.least * (1.0 - slack) - absolute <= value
+                        && value <= span.most * (1.0 + slack) + absolute
+                };
+                assert!(holds(region.cos_i, geometry.cos_i, 0.0), "{angles:?}");
+                assert!(holds(region.cos_r, geometry.cos_r, 0.0), "{angles:?}");
+                assert!(
+                    holds(region.horizontal, geometry.horizontal, 0.0),
+                    "{angles:?} {region:?} {geometry:?}"
+                );
+                assert!(
+                    holds(region.along, geometry.along().abs(), 4.0 * EPSILON),
+                    "{:?} {:e}",
+                    region.along,
+                    geometry.along()
+                );
+                assert!(holds(region.across, geometry.across().abs(), 0.0), "{angles:?} {region:?}");
+                // The corner of a region may be both grazing, where neither has a limit.
+                if geometry.cos_sum > 0.0 && region.cos_sum.least > 0.0 {
+                    assert!(holds(region.facet_factor(), geometry.facet_factor(), 0.0), "{angles:?}");
+                    assert!(holds(region.alpha(), geometry.alpha(), 0.0), "{angles:?}");
+                    let shadowing = Shadowing::VGroove.factor(&geometry);
+                    let cosine = geometry.cos_i.min(geometry.cos_r);
+                    assert!(
+                        shadowing <= region.groove().most * cosine * (1.0 + 64.0 * EPSILON),
+                        "{angles:?}"
+                    );
+                }
             }
         }
     }

@@ -13,6 +13,7 @@ use super::quantity::{
 use super::radiometry::Camera;
 use super::roughness;
 use super::shadowing::Shadowing;
+use super::torrance_sparrow;
 
 pub use super::model::{Component, Model};
 
@@ -131,8 +132,32 @@ pub struct Scene {
     pub(super) parameters: SceneParameters,
     /// Components to evaluate, in the model's order.
     pub(super) evaluated: Vec<Component>,
-    /// σ_α in radians, where the model has facets.
-    pub(super) facet_slope_radians: Option<f64>,
+    /// Where the model has facets.
+    pub(super) facets: Option<FacetParameters>,
+}
+
+/// What the facet lobe (70) is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct FacetParameters {
+    /// σ_α in radians.
+    pub(super) sigma_alpha: f64,
+    /// The c·a_f of facets that tile the mean plane.
+    pub(super) tiling_scale: f64,
+    /// c·a_f
+    pub(super) scale: f64,
+}
+
+impl FacetParameters {
+    fn of(parameters: &SceneParameters) -> Option<Self> {
+        if !matches!(parameters.model, Model::TorranceSparrow | Model::Unified) {
+            return None;
+        }
+        let surface = &parameters.surface;
+        let sigma_alpha = facet_slope_radians(surface)?;
+        let tiling_scale = torrance_sparrow::normalized_scale(sigma_alpha);
+        let scale = surface.specular_scale.map_or(tiling_scale, SpecularScale::get);
+        Some(Self { sigma_alpha, tiling_scale, scale })
+    }
 }
 
 impl Scene {
@@ -148,8 +173,8 @@ impl Scene {
             .as_ref()
             .map(|listed| outline.evaluated(parameters.model, listed))
             .unwrap_or_default();
-        let facet_slope_radians = facet_slope_radians(&parameters.surface);
-        Ok(Self { parameters, evaluated, facet_slope_radians })
+        let facets = FacetParameters::of(&parameters);
+        Ok(Self { parameters, evaluated, facets })
     }
 
     /// A scene of this crate's own making, complete by construction.
@@ -158,8 +183,8 @@ impl Scene {
             Components::Auto => parameters.model.components().to_vec(),
             Components::Named(named) => named.clone(),
         };
-        let facet_slope_radians = facet_slope_radians(&parameters.surface);
-        Self { parameters, evaluated, facet_slope_radians }
+        let facets = FacetParameters::of(&parameters);
+        Self { parameters, evaluated, facets }
     }
 
     /// The same scene to another accuracy, which is no part of what can be wrong.

@@ -6,13 +6,12 @@ use super::directions::Directions;
 use super::facet_energy::{Facet, Facets};
 use super::findings::{Concern, Warning, WarningCode};
 use super::fresnel::{Medium, Polarization};
-use super::quantity::SpecularScale;
 use super::requirement;
-use super::scene::{Component, Model, Scene};
+use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::Shadowing;
 use super::strain;
 use super::surface::Regime;
-use super::{torrance_sparrow, unified};
+use super::unified;
 
 /// What the quadrature may be off by; an albedo above 1 is told from this on.
 const COARSE: f64 = 0.03;
@@ -118,10 +117,8 @@ impl Lobe {
         let (facets, strength) = if scene.parameters().model == Model::BeckmannSpizzichino {
             (slopes.clone(), 1.0)
         } else {
-            let sigma_alpha = scene.facet_slope_radians?;
-            let unit = torrance_sparrow::normalized_scale(sigma_alpha);
-            let scale = scene.parameters().surface.specular_scale.map_or(unit, SpecularScale::get);
-            (Facets::of_angles(sigma_alpha, scale), scale / unit)
+            let FacetParameters { sigma_alpha, tiling_scale, scale } = scene.facets?;
+            (Facets::of_angles(sigma_alpha, scale), scale / tiling_scale)
         };
         Some(Self { facets, slopes, width, strength, shadowing: scene.shadowing() })
     }

@@ -12,7 +12,6 @@
 mod between;
 mod by_saddle;
 mod direct;
-mod envelope;
 pub mod lanes;
 pub mod patches;
 mod rough;
@@ -22,8 +21,6 @@ mod single_term;
 #[cfg(test)]
 mod tests;
 mod uniform;
-
-pub use envelope::{envelope, variance};
 
 use super::EPSILON;
 use super::dispatch::InstructionSet;
@@ -156,4 +153,9 @@ fn beyond_the_batch(g: f64, x: f64) -> LobeSeries {
     } else {
         series::converged(g, x, &saddle)
     }
+}
+
+/// μ/w: the variance of the terms about the saddle, for g > 0 and x ≥ 0.
+pub fn variance(g: f64, x: f64) -> f64 {
+    Saddle::of(g, x).variance()
 }
