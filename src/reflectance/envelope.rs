@@ -207,8 +207,9 @@ fn lobe_series(roughness: RelativeRoughness, region: &Region) -> Span {
         let slack = SLACK * (1.0 + most.abs());
         (least - slack, most + slack)
     };
-    if region.direction.is_some() {
-        let (least, most) = blurred(low, x(region.horizontal.least));
+    if let Some(geometry) = &region.direction {
+        // Its region may be wider than the direction itself: the azimuth's ends are rounded.
+        let (least, most) = blurred(roughness.g(geometry), roughness.x(geometry));
         return Span { least, most };
     }
     let spread = STEEPEST * (libm::log(high) - libm::log(low));
@@ -238,8 +239,11 @@ fn sum(terms: &[Span]) -> Span {
 
 #[cfg(test)]
 mod tests {
-    use super::STEEPEST;
+    use super::{RelativeRoughness, STEEPEST, lobe_series};
+    use crate::reflectance::directions::{Angles, Directions};
     use crate::reflectance::numeric::lobe_series::{Method, evaluate};
+    use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
+    use crate::reflectance::requirement;
 
     #[test]
     fn the_series_falls_no_faster_than_assumed() {
@@ -255,5 +259,35 @@ mod tests {
         }
         // And the constant is not idle.
         assert!(-STEEPEST < least && least < -1.1, "{least}");
+    }
+
+    #[test]
+    fn of_one_direction_the_bounds_are_about_its_own_series() {
+        let below_grazing = |doubles: u64| f64::from_bits(90f64.to_bits() - doubles);
+        // The last one plus 90 is no double.
+        for azimuth in [0.0, 1e-9, 180.0, f64::from_bits(180f64.to_bits() + 1)] {
+            for (i, r) in (0..64).map(|pair| (below_grazing(pair / 8), below_grazing(1 + pair % 8))) {
+                let directions = Directions::new(
+                    Angles::One(SourceZenith::new(i).unwrap()),
+                    Angles::One(ViewerZenith::new(if azimuth < 90.0 { r } else { -r }).unwrap()),
+                    Angles::One(Azimuth::new(azimuth).unwrap()),
+                )
+                .unwrap();
+                let geometry = directions.geometry(0);
+                // x of 1 to 300, g of 40.
+                let height = 1.0 / geometry.cos_sum;
+                let longest = 1.0 / (geometry.horizontal + 1e-16 * geometry.cos_sum);
+                for correlation_length in [0.3 * longest, longest, 6.0 * longest] {
+                    let roughness = RelativeRoughness { height, correlation_length };
+                    let bounds = lobe_series(roughness, &requirement::region(&directions, &(0..1)));
+                    let (g, x) = (roughness.g(&geometry), roughness.x(&geometry));
+                    let exact = evaluate(Method::Series, g, x).estimate.value.ln();
+                    assert!(
+                        bounds.least <= exact && exact <= bounds.most,
+                        "{i} {r} {azimuth} {bounds:?} {exact}"
+                    );
+                }
+            }
+        }
     }
 }
