@@ -11,6 +11,9 @@ use super::scene::Scene;
 use super::strain;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
+#[cfg(test)]
+mod tests;
+
 pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
 

@@ -163,19 +163,17 @@ impl<'a> Kernel<'a> {
         self.roughness.filter(|_| is_needed).map(|roughness| (roughness, choice))
     }
 
-    /// What the directions have in common if the answer is nothing but the unshadowed lobe of a perfect conductor.
+    /// What the directions have in common if the answer is nothing but the unshadowed lobe of (47).
     pub(super) fn lobe_alone(&self) -> Option<Common> {
-        let alone = self.scene.evaluated() == [Component::SpecularLobe]
-            && self.medium == Medium::PerfectConductor
-            && self.shadowing == Shadowing::None;
+        let alone = self.scene.evaluated() == [Component::SpecularLobe] && self.shadowing == Shadowing::None;
         let (roughness, _) = self.series().filter(|_| alone)?;
-        match self.quantity {
-            Quantity::Radiance => {
-                Some(Common { roughness, strength: self.irradiance, over_both_cosines: false })
-            }
-            Quantity::Brdf => Some(Common { roughness, strength: 1.0, over_both_cosines: true }),
-            Quantity::ImageIrradiance { .. } => None,
-        }
+        let (strength, over_both_cosines) = match self.quantity {
+            Quantity::Radiance => (self.irradiance, false),
+            Quantity::Brdf => (1.0, true),
+            Quantity::ImageIrradiance { .. } => return None,
+        };
+        let (medium, polarization) = (self.medium, self.polarization);
+        Some(Common { roughness, medium, polarization, strength, over_both_cosines })
     }
 
     /// g of (34) between these directions, where the scene has heights and a wavelength.
