@@ -15,6 +15,7 @@ use super::numeric::scaled::Scaled;
 use super::quantity::Wavelength;
 use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::Shadowing;
+use super::shadowing::lanes::Cosines;
 use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
@@ -163,17 +164,17 @@ impl<'a> Kernel<'a> {
         self.roughness.filter(|_| is_needed).map(|roughness| (roughness, choice))
     }
 
-    /// What the directions have in common if the answer is nothing but the unshadowed lobe of (47).
+    /// What the directions have in common if the answer is nothing but the lobe of (47).
     pub(super) fn lobe_alone(&self) -> Option<Common> {
-        let alone = self.scene.evaluated() == [Component::SpecularLobe] && self.shadowing == Shadowing::None;
+        let alone = self.scene.evaluated() == [Component::SpecularLobe];
         let (roughness, _) = self.series().filter(|_| alone)?;
-        let (strength, over_both_cosines) = match self.quantity {
-            Quantity::Radiance => (self.irradiance, false),
-            Quantity::Brdf => (1.0, true),
+        let (strength, cosines) = match self.quantity {
+            Quantity::Radiance => (self.irradiance, Cosines::OfView),
+            Quantity::Brdf => (1.0, Cosines::OfBoth),
             Quantity::ImageIrradiance { .. } => return None,
         };
-        let (medium, polarization) = (self.medium, self.polarization);
-        Some(Common { roughness, medium, polarization, strength, over_both_cosines })
+        let (medium, polarization, shadowing) = (self.medium, self.polarization, self.shadowing);
+        Some(Common { roughness, medium, polarization, strength, shadowing, cosines })
     }
 
     /// g of (34) between these directions, where the scene has heights and a wavelength.
