@@ -158,7 +158,7 @@ fn leading_term(g: f64, x: f64) -> (f64, f64, Form) {
 #[inline(always)]
 fn lambert_w(z: f64) -> f64 {
     let logarithm = ln_1p_roughly(z);
-    // Within 3 %.
+    // Within 3 %, or 2 ε for tiny z.
     let mut w = logarithm * (1.0 - ln_1p_roughly(logarithm) / (2.0 + logarithm));
     // Halley's step for w − z e^{−w} cubes the error.
     for _ in 0..2 {
