@@ -74,8 +74,9 @@ fn every_tolerance_is_kept_and_no_bound_exceeded() {
                     "round {round}, direction {index}, {tolerance:e}: off {off:e}, bounds {bound:e} {known:e}\n{:?}\n{parameters:#?}",
                     directions.angles(index),
                 );
-                // Only what the sum cannot do either misses the tolerance; a quarter of it may have been left out.
-                let best = 1.01 * known + 0.25 * tolerance;
+                // Only what the sum cannot do either misses the tolerance. A method knows the conditions to a few per cent,
+                // and a quarter of the tolerance may have been left out.
+                let best = 1.1 * known + 0.25 * tolerance;
                 assert!(
                     bound <= tolerance.max(best) || !exact.total[index].is_finite(),
                     "round {round}, direction {index}: {bound:e} misses {tolerance:e}, {known:e} is to be had\n{parameters:#?}",
