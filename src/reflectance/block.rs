@@ -39,7 +39,7 @@ impl Block {
         for first in range.clone().step_by(LANES) {
             let count = (range.end - first).min(LANES);
             directions.block(first, count, &mut self.directions);
-            fill(self.set, &self.directions, &mut self.geometries);
+            fill(self.set, &self.directions, kernel.has_spike(), &mut self.geometries);
             if let Some((roughness, choice)) = kernel.series() {
                 self.lobe.expand(self.set, choice, roughness, &self.geometries, count);
             }

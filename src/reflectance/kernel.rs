@@ -183,6 +183,11 @@ impl<'a> Kernel<'a> {
         self.roughness.map(|roughness| roughness.g(geometry))
     }
 
+    /// Whether the spike is evaluated.
+    pub(super) fn has_spike(&self) -> bool {
+        self.scene.evaluated().contains(&Component::SpecularSpike)
+    }
+
     /// Whether a batch gives the best there is.
     fn is_at_its_best(&self) -> bool {
         self.tier.is_full() || self.method != Method::Auto
