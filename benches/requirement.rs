@@ -8,8 +8,9 @@ mod realistic;
 use rayon::ThreadPoolBuilder;
 use realistic::{SCENES, in_range};
 use reflectance::reflectance::directions::{Angles, Directions};
-use reflectance::reflectance::evaluate::{Output, Quantity, evaluate};
+use reflectance::reflectance::evaluate::{self, Output, evaluate};
 use reflectance::reflectance::plan::Plan;
+use reflectance::reflectance::quantity::Quantity;
 use reflectance::reflectance::scene::{Component, Components, Scene};
 use std::hint::black_box;
 use std::time::Instant;
@@ -36,29 +37,42 @@ fn report() {
         start.elapsed().as_secs_f64() * 1e9 / (100.0 * 1024.0)
     });
     println!("1 = wide::f64x4::exp, {exp:.2} ns an element");
-    let paired = |from: f64, to: f64| -> Directions {
-        let zeniths =
-            |_| (0..DIRECTIONS).map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64));
-        Directions::new(
-            Angles::Each(zeniths(()).collect()),
-            Angles::Each(
-                (0..DIRECTIONS)
-                    .map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64))
-                    .collect(),
-            ),
-            Angles::One(in_range(0.0)),
-        )
-        .expect("one length")
-    };
-    let swept = |from: f64, to: f64| -> Directions {
-        let zeniths = (0..DIRECTIONS).map(|i| in_range(from + (to - from) * i as f64 / DIRECTIONS as f64));
+    let paired = Directions::new(
+        Angles::Each(between(0.0, 80.0)),
+        Angles::Each(between(0.0, 80.0)),
+        Angles::One(in_range(0.0)),
+    )
+    .expect("one length");
+    let swept = |from: f64, to: f64| {
         Directions::new(
             Angles::One(in_range(30.0)),
-            Angles::Each(zeniths.collect()),
+            Angles::Each(between(from, to)),
             Angles::One(in_range(0.0)),
         )
         .expect("one length")
     };
+    println!("\none direction, θ_i = 60°, θ_r = 40°, everything that an answer says included, µs:\n");
+    let one =
+        Directions::new(Angles::One(in_range(60.0)), Angles::One(in_range(40.0)), Angles::One(in_range(0.0)))
+            .expect("one direction");
+    for realistic in &SCENES {
+        let scene = realistic.scene(1e-9);
+        let time = |scene: &Scene| {
+            least(|| {
+                let start = Instant::now();
+                for _ in 0..200 {
+                    black_box(evaluate(
+                        black_box(scene),
+                        &one,
+                        evaluate::Quantity::Radiance,
+                        Output::default(),
+                    ));
+                }
+                start.elapsed().as_secs_f64() * 1e6 / 200.0
+            })
+        };
+        println!("  {}: {:.2}", realistic.name, time(&scene));
+    }
     // The same views in no order, as a measured data set has them.
     let shuffled = {
         let mut state = 1u64;
@@ -77,7 +91,7 @@ fn report() {
     for (kind, directions) in [
         ("highlight", swept(25.0, 35.0)),
         ("curve", swept(-89.5, 89.5)),
-        ("mirror directions", paired(0.0, 80.0)),
+        ("mirror directions", paired),
         ("hemisphere in no order", shuffled),
     ] {
         println!(
@@ -92,6 +106,11 @@ fn report() {
     }
 }
 
+/// Angles at equal steps.
+fn between<Q: Quantity>(from: f64, to: f64) -> Vec<Q> {
+    (0..DIRECTIONS).map(|step| in_range(from + (to - from) * step as f64 / DIRECTIONS as f64)).collect()
+}
+
 fn row(name: &str, scene: &Scene, directions: &Directions, tolerance: f64, exp: f64) {
     let time = |components: Components| {
         let mut parameters = scene.parameters().clone();
@@ -102,7 +121,7 @@ fn row(name: &str, scene: &Scene, directions: &Directions, tolerance: f64, exp: 
             black_box(evaluate(
                 black_box(&scene),
                 black_box(directions),
-                Quantity::Radiance,
+                evaluate::Quantity::Radiance,
                 Output::default(),
             ));
             start.elapsed().as_secs_f64() * 1e9 / DIRECTIONS as f64
@@ -116,7 +135,7 @@ fn row(name: &str, scene: &Scene, directions: &Directions, tolerance: f64, exp: 
             print!(" |");
         }
     }
-    let auto = evaluate(scene, directions, Quantity::Radiance, Output::default());
+    let auto = evaluate(scene, directions, evaluate::Quantity::Radiance, Output::default());
     let left_out: Vec<_> = auto.omitted.iter().map(|omitted| omitted.component.name()).collect();
     let plan = Plan::of(scene, directions);
     let planned = least(|| {

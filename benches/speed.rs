@@ -60,7 +60,7 @@ fn report() {
                 let scene = scene(*height, tolerance, Method::Auto);
                 add(format!("auto, tolerance {tolerance:.0e}"), whole(&scene, &directions));
             }
-            for method in [Method::Series, Method::Uniform, Method::Paper, Method::Rough] {
+            for method in [Method::Series, Method::Uniform, Method::Paper, Method::Smooth, Method::Rough] {
                 add(method.name().to_owned(), whole(&scene(*height, 1e-9, method), &directions));
             }
             add("100 terms, plain".to_owned(), hundred_terms(&directions, *height));

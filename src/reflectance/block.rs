@@ -39,7 +39,7 @@ impl Block {
         for first in range.clone().step_by(LANES) {
             let count = (range.end - first).min(LANES);
             directions.block(first, count, &mut self.directions);
-            fill(self.set, &self.directions, &mut self.geometries);
+            fill(self.set, &self.directions, kernel.has_spike(), &mut self.geometries);
             if let Some((roughness, choice)) = kernel.series() {
                 self.lobe.expand(self.set, choice, roughness, &self.geometries, count);
             }
@@ -90,6 +90,7 @@ impl Block {
 
     fn direction(&self, kernel: &Kernel<'_>, first: usize, lane: usize, answer: &mut Answer<'_>) {
         let series = kernel.series().and_then(|_| self.lobe.series(lane));
-        answer.push(first + lane, &kernel.reflect(&self.geometries.get(lane), series));
+        let reflection = kernel.reflect(&self.geometries.get(lane), series, answer.has_logarithms());
+        answer.push(first + lane, &reflection);
     }
 }

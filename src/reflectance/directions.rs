@@ -29,8 +29,21 @@ impl<A: Copy> Angles<A> {
         match self {
             Self::One(angle) => [get(*angle); 2],
             Self::Each(angles) => {
+                // Eight extents side by side become vector instructions.
+                let mut extents = [[f64::INFINITY; 8], [f64::NEG_INFINITY; 8]];
+                let [least, most] = &mut extents;
+                let chunks = angles[range].chunks_exact(8);
+                let rest = chunks.remainder();
+                for chunk in chunks {
+                    for (lane, &angle) in chunk.iter().enumerate() {
+                        let angle = get(angle);
+                        least[lane] = if angle < least[lane] { angle } else { least[lane] };
+                        most[lane] = if angle > most[lane] { angle } else { most[lane] };
+                    }
+                }
                 let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
-                angles[range].iter().for_each(|&angle| widen(&mut extent, get(angle)));
+                let ends = extents.into_iter().flatten().filter(|end| end.is_finite());
+                ends.chain(rest.iter().map(|&angle| get(angle))).for_each(|angle| widen(&mut extent, angle));
                 extent
             }
         }

@@ -52,7 +52,7 @@ pub struct Evaluation {
 }
 
 /// Directions that one thread evaluates at a time: some tens of microseconds of work at least.
-const PART: usize = 16 * LANES;
+const PART: usize = 8 * LANES;
 
 /// Evaluates a scene in every direction; many directions on all threads of rayon's current pool.
 ///
@@ -74,18 +74,20 @@ pub(super) fn evaluate_required(
     let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
     let warnings = strain::warnings(scene, &needed, directions, &omitted);
+    let mut whole = Answer::new(&needed, count, output, share);
+    let threads = if count > PART { rayon::current_num_threads() } else { 1 };
+    if threads == 1 {
+        Block::new().evaluate(&kernel, directions, 0..count, &mut whole);
+        return whole.finish(omitted, warnings);
+    }
     let part = |block: &mut Block, first: usize| {
         let end = count.min(first + PART);
         let mut answer = Answer::new(&needed, end - first, output, share);
         block.evaluate(&kernel, directions, first..end, &mut answer);
         answer
     };
-    if count <= PART {
-        return part(&mut Block::new(), 0).finish(omitted, warnings);
-    }
-    let mut whole = Answer::new(&needed, count, output, share);
     // A few parts a thread at a time, so that what is not yet in its place stays small.
-    let at_once = 4 * PART * rayon::current_num_threads();
+    let at_once = 8 * PART * threads;
     for first in (0..count).step_by(at_once) {
         let starts: Vec<usize> = (first..count.min(first + at_once)).step_by(PART).collect();
         let parts: Vec<Answer> = starts.into_par_iter().map_init(Block::new, part).collect();

@@ -41,12 +41,13 @@ pub(super) fn warnings(
     }
     let unused = scene.unused().into_iter();
     warnings.extend(unused.map(|name| Warning::of_scene(WarningCode::ParameterNotUsed, None, Some(name))));
+    let extents = directions.extents(0..directions.count());
     if needed.evaluated().contains(&Component::SpecularLobe) {
-        of_directions(needed, directions, &mut warnings);
+        of_directions(needed, directions, &extents, &mut warnings);
     }
     // Of all that the scene reflects, also where these directions need not all of it.
     if let Some(energy) = SourceEnergy::of(scene) {
-        let sources = Sources::new(&energy, directions.extents(0..directions.count()).theta_i);
+        let sources = Sources::new(&energy, extents.theta_i);
         warnings.extend(sources.warnings(directions));
     }
     warnings
@@ -70,13 +71,12 @@ pub(super) fn slope_width(scene: &Scene) -> Option<f64> {
 }
 
 /// The warnings of a scene with a specular lobe.
-fn of_directions(scene: &Scene, directions: &Directions, warnings: &mut Vec<Warning>) {
+fn of_directions(scene: &Scene, directions: &Directions, extents: &Extents, warnings: &mut Vec<Warning>) {
     let p = scene.parameters();
-    let extents = directions.extents(0..directions.count());
     let mut checks = Vec::with_capacity(4);
     if p.model == Model::BeckmannSpizzichino {
-        checks.extend(Curvature::of(scene, &extents).map(Check::Curvature));
-        checks.extend(PatchSize::of(scene, &extents).map(Check::Patch));
+        checks.extend(Curvature::of(scene, extents).map(Check::Curvature));
+        checks.extend(PatchSize::of(scene, extents).map(Check::Patch));
     } else {
         if let Some(roughness) = scene.relative_roughness()
             && !surface::is_geometrical(roughness.height)
@@ -95,7 +95,7 @@ fn of_directions(scene: &Scene, directions: &Directions, warnings: &mut Vec<Warn
     if scene.shadowing() == Shadowing::None
         && let Some(width) = slope_width(scene)
     {
-        checks.extend(Hidden::of(width, &extents).map(Check::Hidden));
+        checks.extend(Hidden::of(width, extents).map(Check::Hidden));
     }
     let mut concerns: Vec<Concern> = checks.iter().map(|_| Concern::default()).collect();
     if !checks.is_empty() {

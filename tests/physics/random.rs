@@ -5,7 +5,7 @@ use reflectance::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::quantity::{
     Area, Azimuth, Fraction, IndexK, IndexN, Length, Quantity as InRange, SourceZenith, SpecularScale,
-    ViewerZenith,
+    ViewerZenith, Wavelength,
 };
 use reflectance::reflectance::scene::{
     Accuracy, CameraSensor, Components, Illumination, Model, Scene, SceneParameters, Sensor, Surface,
@@ -34,7 +34,9 @@ impl Random {
     }
 
     pub(crate) fn index(&mut self, count: usize) -> usize {
-        ((self.unit() * count as f64) as usize).min(count - 1)
+        self.unit();
+        // The low bits of the state repeat soon; these do not.
+        usize::try_from(self.0 >> 40).expect("24 bits") % count
     }
 }
 
@@ -108,7 +110,7 @@ pub(crate) fn scene(random: &mut Random) -> SceneParameters {
 /// One to 200 directions: anywhere, along sweeps, around a mirror direction, at grazing.
 pub(crate) fn directions(random: &mut Random) -> Directions {
     let count = [1, 1, 2, 3, 7, 40, 200][random.index(7)];
-    let grazing = |random: &mut Random| 90.0 - random.power(-13.0, 1.0);
+    let grazing = |random: &mut Random| 90.0 - random.power(-14.0, 1.0);
     let fixed = if random.index(8) == 0 { grazing(random) } else { random.between(0.0, 90.0) };
     let width = random.power(-6.0, 1.5);
     let azimuth = if random.index(2) == 0 { 0.0 } else { random.between(-360.0, 360.0) };
@@ -122,7 +124,7 @@ pub(crate) fn directions(random: &mut Random) -> Directions {
                 let theta = random.between(0.0, 89.0);
                 (theta, theta, 0.0)
             }
-            2 => (fixed, fixed + width * (2.0 * (index as f64 + 0.5) / f64::from(count) - 1.0), azimuth),
+            2 => (fixed, fixed + width * (2.0 * (f64::from(index) + 0.5) / f64::from(count) - 1.0), azimuth),
             3 => (fixed, fixed + width * random.between(-1.0, 1.0), width * random.between(-1.0, 1.0)),
             _ => (
                 [0.0, 90.0, fixed][random.index(3)],
@@ -147,7 +149,7 @@ pub(crate) fn whole(parameters: &SceneParameters) -> Scene {
 
 /// Puts the surface's lengths anywhere between 1e-12 and 1e9 wavelengths.
 pub(crate) fn extreme(parameters: &mut SceneParameters, random: &mut Random) {
-    let wavelength = parameters.illumination.wavelength.map_or(1.0, |wavelength| wavelength.get());
+    let wavelength = parameters.illumination.wavelength.map_or(1.0, Wavelength::get);
     parameters.surface.rms_height = Some(in_range(wavelength * random.power(-12.0, 9.0)));
     parameters.surface.correlation_length = Some(in_range(wavelength * random.power(-12.0, 9.0)));
 }

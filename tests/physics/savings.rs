@@ -48,7 +48,7 @@ fn count(scene: &Scene, directions: &Directions) -> Count {
     let negligible = |logarithms: &[f64]| {
         logarithms
             .iter()
-            .zip(&whole.log10_total.as_deref().expect("logarithms")[..])
+            .zip(whole.log10_total.as_deref().expect("logarithms"))
             .all(|(component, total)| component - total <= budget.log10())
     };
     let possible = whole

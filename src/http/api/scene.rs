@@ -209,7 +209,8 @@ object! {
         illumination: Option<IlluminationWire>,
         /// The sensor; only the specular spike needs it.
         sensor: Option<Sensor>,
-        /// Which components: `auto` (when absent or null) or a list of names.
+        /// Which components: `auto` (when absent or null) leaves out what changes no total of the request by more than a
+        /// quarter of the tolerance, and says so; or a list of names, each of which is answered.
         components: Option<Listed>,
         /// Tolerance and method.
         accuracy: Option<AccuracyWire>,

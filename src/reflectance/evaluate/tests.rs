@@ -182,7 +182,7 @@ fn blocks_agree_with_single_directions_within_both_bounds() {
             let [.., bound, total] = numbers.as_slice() else { panic!("a total and its bound") };
             let (bound, total) = (f64::from_bits(*bound), f64::from_bits(*total));
             let geometry = directions.geometry(index);
-            let exact = kernel.reflect(&geometry, None).total;
+            let exact = kernel.reflect(&geometry, None, false).total;
             let (other, known) = (exact.value.to_f64(), exact.relative_error());
             let room = (bound + known + 1e-16) * total / (1.0 - bound);
             let is_lost = total < f64::MIN_POSITIVE || !total.is_finite() || bound >= 0.5;
@@ -196,7 +196,8 @@ fn blocks_agree_with_single_directions_within_both_bounds() {
                 angles[index]
             );
             // The bounds of other paths are made otherwise.
-            let by_batch = kernel.reflect(&geometry, in_a_batch(&kernel, &geometry)).total.relative_error();
+            let by_batch =
+                kernel.reflect(&geometry, in_a_batch(&kernel, &geometry), false).total.relative_error();
             in_lanes += usize::from(!is_lost && bound != known && bound != by_batch);
             all += 1;
         }

@@ -87,7 +87,7 @@ mod tests {
             directions.phi_r.degrees[lane] = 2.8 * lane as f64;
         }
         let mut geometries = Geometries::new();
-        fill(InstructionSet::widest(), &directions, &mut geometries);
+        fill(InstructionSet::widest(), &directions, false, &mut geometries);
         let mut lanes = ReflectanceLanes::new();
         let mut known = 0;
         for (n, k) in

@@ -79,12 +79,14 @@ pub(in crate::reflectance) struct Geometries {
 }
 
 vectorized! {
-    /// The geometries of `directions`, the same numbers as [`Geometry::new`] gives one by one.
-    pub(in crate::reflectance) fn fill = all, (directions: &DirectionLanes, geometries: &mut Geometries)
+    /// The geometries of `directions`, the same numbers as [`Geometry::new`] gives one by one; cos φ_r, which only a
+    /// spike reads, is NaN unless asked for.
+    pub(in crate::reflectance) fn fill = all,
+        (directions: &DirectionLanes, with_cos_azimuth: bool, geometries: &mut Geometries)
 }
 
 #[inline(always)]
-fn all(directions: &DirectionLanes, geometries: &mut Geometries) {
+fn all(directions: &DirectionLanes, with_cos_azimuth: bool, geometries: &mut Geometries) {
     let DirectionLanes { count, theta_i, theta_r, phi_r } = directions;
     let count = (*count).min(LANES);
     let (i, r, phi) = (&theta_i.degrees, &theta_r.degrees, &phi_r.degrees);
@@ -95,7 +97,11 @@ fn all(directions: &DirectionLanes, geometries: &mut Geometries) {
     viewer.fill(count, theta_r.is_one, |lane| r[lane].abs());
     half_difference.fill(count, theta_i.is_one && theta_r.is_one, |lane| (i[lane] - r[lane].abs()) / 2.0);
     half_azimuth.fill(count, phi_r.is_one, |lane| phi[lane] / 2.0);
-    azimuth.fill(count, phi_r.is_one, |lane| phi[lane]);
+    if with_cos_azimuth {
+        azimuth.fill(count, phi_r.is_one, |lane| phi[lane]);
+    } else {
+        azimuth.cos = [f64::NAN; LANES];
+    }
     for lane in 0..count {
         let sines = Sines {
             source: source.at(lane),

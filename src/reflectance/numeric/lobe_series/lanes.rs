@@ -113,7 +113,7 @@ impl Choice<'static> {
 vectorized! {
     /// S at the points (`g`, `x`), equally many of each and at most [`LANES`].
     ///
-    /// Domain of the vector path: 1e-140 ≤ g ≤ 1e140 and 2x/g² ≤ 1e250, |ln S| < 1e15.
+    /// Domain of the vector path: 1e-140 ≤ g ≤ 1e140, 2x/g² ≤ 1e250 and |log₂ S| < 1e15, by (49) x/g < 1e14.
     pub fn evaluate = sorted, (choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch)
 }
 
@@ -164,6 +164,16 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
     for place in 0..count {
         kinds[place] = kind_of(enough, g[place], x[place]);
     }
+    let mut is_smooth = false;
+    for &g in g {
+        // The second term is above g/4 of the first.
+        is_smooth |= 0.25 * g <= enough;
+    }
+    if is_smooth {
+        for place in 0..count {
+            kinds[place] = or_first(kinds[place], enough, g[place], x[place]);
+        }
+    }
     let has = |kind: f64| {
         let mut has = false;
         for &of_place in &kinds[..count] {
@@ -194,18 +204,24 @@ fn sorted(choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch) {
     }
 }
 
+/// One of the kinds but the first term.
 #[inline(always)]
 fn kind_of(enough: f64, g: f64, x: f64) -> f64 {
     // No branches: every part is cheap, and a lane cannot skip any.
     let y = x / g;
     let is_inside = (1e-140..=1e140).contains(&g) & (2.0 * y / g <= 1e250);
-    // An x so large leaves a second term that is not negligible for any g inside.
-    let ratio = g * (0.25 * exp(0.5 * x.min(1400.0)).value());
-    let is_first = (x < 1400.0) & (single_term::rest_to_first(ratio) <= enough);
     let is_rough = (rough::bound(g, x) <= enough) & (y < LARGEST_EXPONENT);
     let kind = if is_rough { kind::ROUGH } else { kind::SADDLE };
-    let kind = if is_first { kind::FIRST } else { kind };
     if is_inside { kind } else { kind::LEFT }
+}
+
+/// The first term where it is enough.
+#[inline(always)]
+fn or_first(kind: f64, enough: f64, g: f64, x: f64) -> f64 {
+    // An x so large leaves a second term that is not negligible for any g inside.
+    let ratio = g * (0.25 * exp(0.5 * x.min(1400.0)).value());
+    let is_first = (x < 1400.0) & (single_term::rest_to_first(ratio) <= enough) & (kind < kind::LEFT);
+    if is_first { kind::FIRST } else { kind }
 }
 
 /// Evaluates `form` at the points of one kind.
