@@ -80,14 +80,27 @@ pub fn scale(significand: f64, exponent: f64) -> f64 {
         * power_of_two(other - other_quarter)
 }
 
+/// The exponent of a normal x, a whole number, and its significand in [√½, √2).
+#[inline(always)]
+fn parts(x: f64) -> (f64, f64) {
+    // √½, down to which the significand goes: adding 1 − √½ to the exponent's field brings it there.
+    const LEAST: u64 = 0x3fe6_a09e_667f_3bcd;
+    const OFFSET: u64 = 0x3ff0_0000_0000_0000 - LEAST;
+    let bits = x.to_bits().wrapping_add(OFFSET);
+    let significand = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) + LEAST);
+    (unbiased(bits >> 52), significand)
+}
+
+/// The exponent that a double holds as `field`: below 2^52, which takes it into its low bits.
+#[inline(always)]
+fn unbiased(field: u64) -> f64 {
+    f64::from_bits(field | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0)
+}
+
 /// ln x for a normal x, relative error below 3 ε.
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
-    // Brings the significand into [√½, √2) by adding 1 − √½ to the exponent's field.
-    const OFFSET: u64 = 0x3ff0_0000_0000_0000 - 0x3fe6_a09e_667f_3bcd;
-    let bits = x.to_bits().wrapping_add(OFFSET);
-    let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0);
-    let m = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) + 0x3fe6_a09e_667f_3bcd);
+    let (exponent, m) = parts(x);
     let f = m - 1.0;
     let s = f / (m + 1.0);
     let z = s * s;
@@ -103,13 +116,10 @@ pub fn ln(x: f64) -> f64 {
     exponent * LN2_HIGH + (f - (s * f - (2.0 * s * series + exponent * LN2_LOW)))
 }
 
-/// ln(1 + z) for 0 ≤ z < 1e290 to 1e-3, relative to the value also next to 0.
+/// ln(1 + z) for 0 ≤ z < 1e290 to 1e-3, relative down to z = 1e-12; below, to 2 ε.
 #[inline(always)]
 pub fn ln_1p_roughly(z: f64) -> f64 {
-    const OFFSET: u64 = 0x3ff0_0000_0000_0000 - 0x3fe6_a09e_667f_3bcd;
-    let bits = (1.0 + z).to_bits().wrapping_add(OFFSET);
-    let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0);
-    let m = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) + 0x3fe6_a09e_667f_3bcd);
+    let (exponent, m) = parts(1.0 + z);
     let s = (m - 1.0) / (m + 1.0);
     exponent * core::f64::consts::LN_2 + 2.0 * s * (1.0 + s * s * (1.0 / 3.0))
 }
@@ -154,7 +164,7 @@ pub fn sin_cos_degrees(angle: f64) -> (f64, f64) {
 /// ⌊log₂ |x|⌋ for a normal x.
 #[inline(always)]
 pub fn binary_exponent(x: f64) -> f64 {
-    f64::from_bits(((x.to_bits() >> 52) & 0x7ff) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0)
+    unbiased((x.to_bits() >> 52) & 0x7ff)
 }
 
 #[cfg(test)]
