@@ -5,11 +5,15 @@ use super::columns::Columns;
 use super::directions::Directions;
 use super::findings::{Concern, Diagnostic, DiagnosticCode, Omitted, Warning, WarningCode};
 use super::kernel::{Kernel, Reflection};
+use super::numeric::lobe_series::Method;
 use super::numeric::lobe_series::lanes::LANES;
 use super::requirement::Requirement;
 use super::scene::Scene;
 use super::strain;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+
+#[cfg(test)]
+mod tests;
 
 pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
@@ -66,11 +70,11 @@ pub(super) fn evaluate_required(
     output: Output,
     requirement: Requirement,
 ) -> Evaluation {
-    let Requirement { evaluated, omitted, share } = requirement;
+    let Requirement { evaluated, omitted, share, extents } = requirement;
     let needed = scene.with_only(&evaluated);
     let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
-    let warnings = strain::warnings(scene, &needed, directions, &omitted);
+    let warnings = strain::warnings(scene, &needed, directions, &extents, &omitted);
     let mut whole = Answer::new(&needed, count, output, share);
     let threads = if count > PART { rayon::current_num_threads() } else { 1 };
     if threads == 1 {
@@ -102,6 +106,7 @@ pub(super) struct Answer<'a> {
     method: Option<Vec<EvaluatedBy>>,
     roughness_g: Option<Vec<f64>>,
     counts: [usize; EvaluatedBy::ALL.len()],
+    out_of_range: Concern,
     underflow: Concern,
     tolerance: Concern,
 }
@@ -114,6 +119,7 @@ impl<'a> Answer<'a> {
             method: output.per_direction.then(|| Vec::with_capacity(count)),
             roughness_g: output.per_direction.then(|| Vec::with_capacity(count)),
             counts: [0; EvaluatedBy::ALL.len()],
+            out_of_range: Concern::default(),
             underflow: Concern::default(),
             tolerance: Concern::default(),
         }
@@ -142,6 +148,11 @@ impl<'a> Answer<'a> {
         }
         if total.value.abs() < f64::MIN_POSITIVE && !total.exact.is_zero() {
             self.underflow.add(index, 0.0);
+        }
+        // Before it is rounded to f64: a value that underflows may be right, and one that overflows has a method, too.
+        let error = reflection.total.relative_error();
+        if self.is_approximation(reflection.evaluated_by) && error > 1.0 && total.exact.is_finite() {
+            self.out_of_range.add(index, error);
         }
         self.count(reflection.evaluated_by);
     }
@@ -176,6 +187,16 @@ impl<'a> Answer<'a> {
         (0..values.len()).for_each(|place| self.count(by(place)));
     }
 
+    /// Whether a form was asked for that is right in some range only.
+    fn is_approximation(&self, by: EvaluatedBy) -> bool {
+        let is_named = self.scene.parameters().accuracy.method != Method::Auto;
+        is_named
+            && match by {
+                EvaluatedBy::Lobe(Method::Paper | Method::Uniform | Method::Smooth | Method::Rough) => true,
+                EvaluatedBy::Lobe(Method::Auto | Method::Series) | EvaluatedBy::ClosedForm => false,
+            }
+    }
+
     /// The logarithms are asked for.
     pub(super) fn has_logarithms(&self) -> bool {
         self.columns.log10_total.is_some()
@@ -193,6 +214,7 @@ impl<'a> Answer<'a> {
         for (count, next) in self.counts.iter_mut().zip(next.counts) {
             *count += next;
         }
+        self.out_of_range.append(&next.out_of_range);
         self.underflow.append(&next.underflow);
         self.tolerance.append(&next.tolerance);
     }
@@ -206,18 +228,14 @@ impl<'a> Answer<'a> {
 
     fn finish(self, omitted: Vec<Omitted>, mut warnings: Vec<Warning>) -> Evaluation {
         let methods = EvaluatedBy::ALL.into_iter().zip(self.counts).filter(|(_, count)| *count > 0).collect();
-        warnings.extend(strain::out_of_range(
-            self.scene,
-            &self.columns.total,
-            &self.columns.relative_error_bound,
-        ));
-        let largest = self.tolerance.largest;
-        warnings.extend(
-            self.tolerance
-                .warning(WarningCode::ToleranceNotMet, largest.is_finite().then_some(largest))
-                .into_iter()
-                .chain(self.underflow.warning(WarningCode::Underflow, None)),
-        );
+        let known = |largest: f64| largest.is_finite().then_some(largest);
+        let (out_of_range, tolerance) = (known(self.out_of_range.largest), known(self.tolerance.largest));
+        let of_values = [
+            self.out_of_range.warning(WarningCode::MethodOutOfRange, out_of_range),
+            self.tolerance.warning(WarningCode::ToleranceNotMet, tolerance),
+            self.underflow.warning(WarningCode::Underflow, None),
+        ];
+        warnings.extend(of_values.into_iter().flatten());
         let Columns { total, log10_total, components, relative_error_bound, diagnostics, .. } = self.columns;
         Evaluation {
             total,

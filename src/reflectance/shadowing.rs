@@ -1,5 +1,7 @@
 //! Shadowing and masking of facets by their neighbours: the G of (65).
 
+pub(super) mod lanes;
+
 use super::degrees::SinCos;
 use super::geometry::Geometry;
 use core::f64::consts::PI;
@@ -30,45 +32,38 @@ impl Shadowing {
     pub fn factor(self, geometry: &Geometry) -> f64 {
         match self {
             Self::None => 1.0,
-            Self::VGroove => {
-                let Some(groove) = groove(geometry) else { return f64::NAN };
-                (groove * geometry.cos_i.min(geometry.cos_r)).clamp(0.0, 1.0)
-            }
+            Self::VGroove => (groove(geometry) * geometry.cos_i.min(geometry.cos_r)).clamp(0.0, 1.0),
         }
     }
 
     /// G/cos θ_r, the factor of (70) that stays finite at grazing view if there are V-grooves: both go
     /// to zero at the same rate and the ratio to 2 cos α/cos θ′ (errata E38). Without shadowing it is
     /// infinite at cos θ_r = 0. NaN as [`Self::factor`]. Relative error below 16 ε.
+    #[inline(always)]
     pub fn factor_over_cos_r(self, geometry: &Geometry) -> f64 {
         let &Geometry { cos_i, cos_r, .. } = geometry;
+        let whole = 1.0 / cos_r;
         match self {
-            Self::None => 1.0 / cos_r,
+            Self::None => whole,
             Self::VGroove => {
-                let Some(groove) = groove(geometry) else { return f64::NAN };
-                if cos_r <= cos_i {
-                    // At cos θ_r = 0 the second is infinite and the minimum finite.
-                    groove.min(1.0 / cos_r)
-                } else {
-                    (groove * cos_i / cos_r).min(1.0 / cos_r).max(0.0)
-                }
+                let groove = groove(geometry);
+                let hidden = groove * cos_i / cos_r;
+                // At cos θ_r = 0 the whole is infinite and the minimum finite.
+                least(if cos_r <= cos_i { groove } else { hidden }, whole)
             }
         }
     }
 
     /// G/(cos θ_i cos θ_r), the factor of a BRDF, in the form that stays finite at grazing source or
     /// view if there are V-grooves. NaN as [`Self::factor`]. Relative error below 16 ε.
+    #[inline(always)]
     pub fn factor_over_cosines(self, geometry: &Geometry) -> f64 {
         let &Geometry { cos_i, cos_r, .. } = geometry;
         let both = 1.0 / (cos_i * cos_r);
         match self {
             Self::None => both,
-            Self::VGroove => {
-                let Some(groove) = groove(geometry) else { return f64::NAN };
-                // 0/0 where both directions are grazing.
-                let hidden = groove / cos_i.max(cos_r);
-                if hidden.is_nan() { hidden } else { hidden.min(both) }
-            }
+            // 0/0 where both directions are grazing.
+            Self::VGroove => least(groove(geometry) / cos_i.max(cos_r), both),
         }
     }
 }
@@ -84,16 +79,30 @@ pub fn smith_lambda(direction: SinCos, width: f64) -> f64 {
     (0.5 * (libm::exp(-v * v) / (PI.sqrt() * v) - libm::erfc(v))).max(0.0)
 }
 
-/// 2 cos α/cos θ′; none where v = 0.
-fn groove(geometry: &Geometry) -> Option<f64> {
+/// [`smith_lambda`] as B. Walter, S. Marschner, H. Li and K. Torrance approximate 1/(1 + Λ) ("Microfacet Models for
+/// Refraction through Rough Surfaces", 2007): that is good to 0.004, at a tenth of the price.
+pub(super) fn smith_visible_roughly(direction: SinCos, width: f64) -> f64 {
+    let v = direction.cos / (direction.sin * width);
+    if v < 1.6 { v * (3.535 + 2.181 * v) / (1.0 + v * (2.276 + 2.577 * v)) } else { 1.0 }
+}
+
+/// 2 cos α/cos θ′; NaN, 0/0, where v = 0.
+#[inline(always)]
+fn groove(geometry: &Geometry) -> f64 {
     let length = geometry.length();
-    // v/k is 0 or above 1e-17: its square cannot underflow.
-    (length > 0.0).then(|| 4.0 * geometry.cos_sum / (length * length))
+    4.0 * geometry.cos_sum / (length * length)
+}
+
+/// The smaller of G's two forms, NaN where the first is, and not below 0.
+#[inline(always)]
+fn least(hidden: f64, whole: f64) -> f64 {
+    let least = if whole < hidden { whole } else { hidden };
+    if least < 0.0 { 0.0 } else { least }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Shadowing, smith_lambda};
+    use super::{Shadowing, smith_lambda, smith_visible_roughly};
     use crate::reflectance::degrees::SinCos;
     use crate::reflectance::geometry::Geometry;
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
@@ -162,5 +171,16 @@ mod tests {
         }
         assert_eq!(smith_lambda(SinCos::of_degrees(0.0), 0.3), 0.0);
         assert_eq!(smith_lambda(SinCos::of_degrees(90.0), 0.3), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_rational_form_is_as_good_as_it_says() {
+        let mut worst: f64 = 0.0;
+        for step in 0..9000 {
+            let direction = SinCos::of_degrees(0.01 * f64::from(step));
+            let exact = 1.0 / (1.0 + smith_lambda(direction, 0.7));
+            worst = worst.max((smith_visible_roughly(direction, 0.7) - exact).abs());
+        }
+        assert!(worst < 0.004 && worst > 0.001, "{worst}");
     }
 }

@@ -6,7 +6,6 @@
 use super::degrees::{self, SinCos};
 use super::directions::{Directions, Extents};
 use super::findings::{Concern, Omitted, Warning, WarningCode};
-use super::numeric::lobe_series::Method;
 use super::requirement;
 use super::roughness;
 use super::scene::{Component, Model, Scene, Sensor};
@@ -30,6 +29,7 @@ pub(super) fn warnings(
     scene: &Scene,
     needed: &Scene,
     directions: &Directions,
+    extents: &Extents,
     omitted: &[Omitted],
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
@@ -41,9 +41,8 @@ pub(super) fn warnings(
     }
     let unused = scene.unused().into_iter();
     warnings.extend(unused.map(|name| Warning::of_scene(WarningCode::ParameterNotUsed, None, Some(name))));
-    let extents = directions.extents(0..directions.count());
     if needed.evaluated().contains(&Component::SpecularLobe) {
-        of_directions(needed, directions, &extents, &mut warnings);
+        of_directions(needed, directions, extents, &mut warnings);
     }
     // Of all that the scene reflects, also where these directions need not all of it.
     if let Some(energy) = SourceEnergy::of(scene) {
@@ -244,22 +243,4 @@ fn zenith_of(target: f64, width: f64) -> f64 {
         }
     }
     high
-}
-
-/// Directions in which a named method is off by more than the whole answer.
-pub(super) fn out_of_range(scene: &Scene, totals: &[f64], bounds: &[f64]) -> Option<Warning> {
-    let p = scene.parameters();
-    let is_named = p.accuracy.method != Method::Auto && p.model == Model::BeckmannSpizzichino;
-    if !is_named || !scene.evaluated().contains(&Component::SpecularLobe) {
-        return None;
-    }
-    let mut concern = Concern::default();
-    for (index, (total, &bound)) in totals.iter().zip(bounds).enumerate() {
-        // The bound of a value that the model does not have says nothing of the method.
-        if total.is_finite() && bound > 1.0 {
-            concern.add(index, bound);
-        }
-    }
-    let largest = concern.largest;
-    concern.warning(WarningCode::MethodOutOfRange, largest.is_finite().then_some(largest))
 }

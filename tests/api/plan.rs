@@ -149,6 +149,35 @@ fn every_strained_assumption_is_named_with_its_number() {
 }
 
 #[test]
+fn a_method_is_out_of_range_by_its_value_before_that_is_rounded() {
+    let server = Server::start();
+    let lobe = |height: f64, length: f64, geometry: Value, method: &str| {
+        let mut body = heights(height, length, &geometry);
+        body["illumination"] = json!({"wavelength_um": 1, "irradiance": 1e90});
+        body["components"] = json!(["specular_lobe"]);
+        body["accuracy"] = json!({"method": method});
+        server.answer("/v1/radiance", &body)
+    };
+    let mirror = || json!({"theta_i_deg": 30, "theta_r_deg": 30});
+    // g is 1e6: e^{-g} and all that a hundred terms add to it are below f64.
+    let paper = lobe(100.0, 1000.0, mirror(), "paper");
+    assert_eq!((&paper["total"], &paper["relative_error_bound"]), (&json!([0.0]), &json!([1.0])));
+    let found = warning(&paper, "method_out_of_range").unwrap_or_else(|| panic!("{paper}"));
+    assert_eq!(found["indices"], json!([0]));
+    // (T/σ_h)² is 1e240.
+    let rough = lobe(1e-60, 1e60, mirror(), "rough");
+    assert_eq!(rough["total"], json!([null]));
+    assert!(warning(&rough, "method_out_of_range").is_some(), "{rough}");
+    // Towards the source at 80°, T = 12 σ_h, it is e^{-1158} and right to a tenth.
+    let retro = lobe(2e3, 24e3, json!({"theta_i_deg": 80, "theta_r_deg": -80}), "rough");
+    assert_eq!(retro["total"], json!([0.0]));
+    assert!(
+        warning(&retro, "underflow").is_some() && warning(&retro, "method_out_of_range").is_none(),
+        "{retro}"
+    );
+}
+
+#[test]
 fn a_warning_lists_twenty_directions_and_counts_the_rest() {
     let server = Server::start();
     let views: Vec<f64> = (0..200).map(|i| 0.45 * f64::from(i)).collect();

@@ -1,6 +1,7 @@
 //! The pages that name files, functions and tests name existing ones, and docs/paper.md leaves no equation and no
 //! erratum out.
 
+use reflectance::reflectance::findings::WarningCode;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -103,6 +104,48 @@ fn every_file_function_and_test_that_the_pages_name_exists() {
     }
 }
 
+/// All source files below a folder, as paths from the root.
+fn sources(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            let from_root = path.strip_prefix(root()).expect("below the root");
+            found.push(from_root.to_str().expect("a name").to_owned());
+        }
+    }
+    found
+}
+
+/// The files that a page names neither by their path nor by their folder's.
+fn unnamed(page: &str, files: Vec<String>) -> Vec<String> {
+    let spans: Vec<_> = page.lines().flat_map(code_spans).collect();
+    let names = |span: &str, file: &str| span == file || span.ends_with('/') && file.starts_with(span);
+    files.into_iter().filter(|file| !spans.iter().any(|span| names(span, file))).collect()
+}
+
+#[test]
+fn the_architecture_names_every_file() {
+    let files: Vec<_> = ["src", "tests", "examples", "benches"]
+        .iter()
+        .flat_map(|folder| sources(&root().join(folder)))
+        // What a crate consists of says itself.
+        .filter(|file| !["src/lib.rs", "src/reflectance/mod.rs"].contains(&file.as_str()))
+        .collect();
+    assert!(files.len() > 100, "{}", files.len());
+    assert_eq!(unnamed(&page("architecture.md"), files), Vec::<String>::new());
+}
+
+#[test]
+fn every_warning_has_its_row_in_the_plan() {
+    let text = page("plan.md");
+    let rows: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next()).collect();
+    let codes: Vec<_> = WarningCode::ALL.into_iter().map(WarningCode::name).collect();
+    assert_eq!(rows, codes);
+}
+
 #[test]
 fn every_equation_and_every_erratum_has_its_row() {
     let text = page("paper.md");
@@ -129,5 +172,8 @@ fn the_checks_see_what_is_missing() {
     assert_eq!(missing(page).len(), 2, "{:?}", missing(page));
     assert_eq!(missing("| (1) | `waves.rs` `Lossless::energy_flow`, `SmoothPlate` |"), Vec::<String>::new());
     assert_eq!(numbers("(1)-(3), (34)", '('), [1, 2, 3, 34]);
+    let files = || vec!["src/main.rs".to_owned(), "src/http/body.rs".to_owned()];
+    assert_eq!(unnamed("`src/main.rs` and `body.rs`", files()), ["src/http/body.rs"]);
+    assert_eq!(unnamed("`src/http/`", files()), ["src/main.rs"]);
     assert_eq!(numbers("E1, E17", 'E'), [1, 17]);
 }

@@ -110,7 +110,7 @@ pub(crate) fn scene(random: &mut Random) -> SceneParameters {
 /// One to 200 directions: anywhere, along sweeps, around a mirror direction, at grazing.
 pub(crate) fn directions(random: &mut Random) -> Directions {
     let count = [1, 1, 2, 3, 7, 40, 200][random.index(7)];
-    let grazing = |random: &mut Random| 90.0 - random.power(-13.0, 1.0);
+    let grazing = |random: &mut Random| 90.0 - random.power(-14.0, 1.0);
     let fixed = if random.index(8) == 0 { grazing(random) } else { random.between(0.0, 90.0) };
     let width = random.power(-6.0, 1.5);
     let azimuth = if random.index(2) == 0 { 0.0 } else { random.between(-360.0, 360.0) };

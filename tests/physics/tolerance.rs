@@ -68,13 +68,18 @@ fn every_tolerance_is_kept_and_no_bound_exceeded() {
             for index in 0..directions.count() {
                 let (bound, known) = (answer.relative_error_bound[index], exact.relative_error_bound[index]);
                 let off = distance(&answer, &exact, index);
-                // A bound that f64 cannot bring below the tolerance is told apart below.
-                let allowed = if bound <= tolerance { bound } else { bound.max(tolerance) };
-                let room = allowed + 1.001 * known + 4.0 * f64::EPSILON;
+                let room = bound + 1.001 * known + 4.0 * f64::EPSILON;
                 assert!(
                     off <= room || known > 0.5 || !exact.total[index].is_finite(),
                     "round {round}, direction {index}, {tolerance:e}: off {off:e}, bounds {bound:e} {known:e}\n{:?}\n{parameters:#?}",
                     directions.angles(index),
+                );
+                // Only what the sum cannot do either misses the tolerance. A method knows the conditions to a few per cent,
+                // and a quarter of the tolerance may have been left out.
+                let best = 1.1 * known + 0.25 * tolerance;
+                assert!(
+                    bound <= tolerance.max(best) || !exact.total[index].is_finite(),
+                    "round {round}, direction {index}: {bound:e} misses {tolerance:e}, {known:e} is to be had\n{parameters:#?}",
                 );
                 used += usize::from(bound <= tolerance && bound > 0.01 * tolerance);
             }

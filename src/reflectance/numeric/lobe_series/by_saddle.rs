@@ -163,7 +163,7 @@ fn leading_term(g: f64, x: f64) -> (f64, f64, Form) {
     (mu, w, form)
 }
 
-/// W₀(z) for 0 ≤ z ≤ 1e250, within 3 %.
+/// W₀(z) for 0 ≤ z ≤ 1e250, within 3 %, or 2 ε for tiny z.
 #[inline(always)]
 fn lambert_w_roughly(z: f64) -> f64 {
     let logarithm = ln_1p_roughly(z);

@@ -2,7 +2,7 @@
 
 use super::lanes::{Batch, Lanes, Places};
 use super::patches::Tier;
-use super::series::stirling_remainder;
+use super::series::{deviance_near, stirling_remainder};
 use crate::reflectance::numeric::elementary::{exp, ln};
 
 /// Points that walk through their terms together: as long as the one with the most terms. A few points by
@@ -167,19 +167,12 @@ impl<const BLOCK: usize> Walk<BLOCK> {
     }
 }
 
-/// m ln(m/g) − m + g without cancellation: Loader's expansion in v = (m − g)/(m + g) near m = g.
+/// m ln(m/g) − m + g without cancellation or branches.
 #[inline(always)]
 fn deviance(m: f64, g: f64) -> f64 {
     let (difference, sum) = (m - g, m + g);
     let v = difference / sum;
-    let v2 = v * v;
-    // |v| < 0.1: the first power left out, v^17/17, is below 1e-18 of the first.
-    let tail = v2
-        * (1.0 / 3.0
-            + v2 * (1.0 / 5.0
-                + v2 * (1.0 / 7.0
-                    + v2 * (1.0 / 9.0 + v2 * (1.0 / 11.0 + v2 * (1.0 / 13.0 + v2 * (1.0 / 15.0)))))));
-    let near = difference * v + 2.0 * m * v * tail;
+    let near = deviance_near(m, difference, v);
     let far = m * ln(m / g) - difference;
-    if v2 < 0.01 { near } else { far }
+    if v * v < 0.01 { near } else { far }
 }

@@ -113,7 +113,7 @@ impl Choice<'static> {
 vectorized! {
     /// S at the points (`g`, `x`), equally many of each and at most [`LANES`].
     ///
-    /// Domain of the vector path: 1e-140 ≤ g ≤ 1e140 and 2x/g² ≤ 1e250, |ln S| < 1e15.
+    /// Domain of the vector path: 1e-140 ≤ g ≤ 1e140, 2x/g² ≤ 1e250 and |log₂ S| < 1e15, by (49) x/g < 1e14.
     pub fn evaluate = sorted, (choice: Choice<'_>, g: &[f64], x: &[f64], batch: &mut Batch)
 }
 

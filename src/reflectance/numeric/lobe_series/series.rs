@@ -210,7 +210,7 @@ fn exponent(m: f64, g: f64, x: f64) -> f64 {
     deviance(m, g) + (x / m + stirling_remainder(m))
 }
 
-/// m ln(m/g) − m + g without cancellation: Loader's expansion in v = (m − g)/(m + g) near m = g.
+/// m ln(m/g) − m + g without cancellation.
 pub(super) fn deviance(m: f64, g: f64) -> f64 {
     let (difference, sum) = (m - g, m + g);
     if difference.abs() >= 0.1 * sum {
@@ -218,10 +218,15 @@ pub(super) fn deviance(m: f64, g: f64) -> f64 {
         let ln_ratio = if g > 1e-290 { libm::log(m / g) } else { libm::log(m) - libm::log(g) };
         return m * ln_ratio - difference;
     }
-    // m ln(m/g) = 2m (v + v³/3 + v⁵/5 + …) and 2mv − (m − g) = (m − g) v.
-    let v = difference / sum;
+    deviance_near(m, difference, difference / sum)
+}
+
+/// The same near m = g by Loader's expansion in v = (m − g)/(m + g), |v| ≤ 0.1: m ln(m/g) = 2m (v + v³/3 + v⁵/5 + …)
+/// and 2mv − (m − g) = (m − g) v.
+#[inline(always)]
+pub(super) fn deviance_near(m: f64, difference: f64, v: f64) -> f64 {
     let v2 = v * v;
-    // |v| < 0.1: the first power left out, v^17/17, is below 1e-18 of the first.
+    // The first power left out, v^17/17, is below 1e-17 of the first.
     let tail = v2
         * (1.0 / 3.0
             + v2 * (1.0 / 5.0
