@@ -90,6 +90,7 @@ impl Block {
 
     fn direction(&self, kernel: &Kernel<'_>, first: usize, lane: usize, answer: &mut Answer<'_>) {
         let series = kernel.series().and_then(|_| self.lobe.series(lane));
-        answer.push(first + lane, &kernel.reflect(&self.geometries.get(lane), series));
+        let reflection = kernel.reflect(&self.geometries.get(lane), series, answer.has_logarithms());
+        answer.push(first + lane, &reflection);
     }
 }

@@ -99,7 +99,7 @@ impl Columns {
             // All is lost, or there is nothing: no other error of a 0 is possible.
             if total == Estimate::ZERO { 0.0 } else { 1.0 }
         } else {
-            total.relative_error() + rounding_below_normal(total.value, value) + self.omitted_share
+            total.relative_error() + rounding_below_normal(total, value) + self.omitted_share
         };
         if !bound.is_finite() && total.value.is_finite() {
             note(index, DiagnosticCode::NoErrorBound, first_diagnostic, diagnostics);
@@ -110,12 +110,12 @@ impl Columns {
     }
 }
 
-/// What rounding to a subnormal adds to the relative error.
-fn rounding_below_normal(exact: Scaled, value: f64) -> f64 {
-    if value.abs() >= f64::MIN_POSITIVE || !exact.is_finite() {
+/// What rounding to a subnormal adds to the relative error, which is relative to the exact value.
+fn rounding_below_normal(total: Estimate, value: f64) -> f64 {
+    if value.abs() >= f64::MIN_POSITIVE || !total.value.is_finite() {
         0.0
     } else {
-        (Scaled::new(2f64.powi(-1074)) * 0.5 / exact).to_f64()
+        (Scaled::new(2f64.powi(-1074)) * 0.5 / total.least).to_f64()
     }
 }
 
@@ -152,5 +152,23 @@ fn logarithm(estimate: Estimate, index: usize, first: usize, diagnostics: &mut V
 fn note(index: usize, code: DiagnosticCode, first: usize, diagnostics: &mut Vec<Diagnostic>) {
     if !diagnostics[first..].iter().any(|d| d.code == code) {
         diagnostics.push(Diagnostic { index, code });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Columns, Estimate, Scaled};
+
+    #[test]
+    fn a_subnormal_total_is_within_its_bound_of_the_least_that_it_can_be() {
+        let smallest = Scaled::new(f64::from_bits(1));
+        for (value, least) in [(2.6, 0.4), (1.4, 1.39), (3.5, 0.1), (1000.5, 999.0)] {
+            let [value, least] = [value, least].map(|factor: f64| smallest * factor);
+            let total = Estimate { value, error: value.distance(least), least };
+            let answered = Columns::new(&[], 1, false).push(0, &[None; 3], total);
+            let off = Scaled::new(answered.value).distance(least) / least;
+            // The bound itself is rounded.
+            assert!(off.to_f64() <= answered.relative_error_bound * (1.0 + 1e-15), "{total:?}");
+        }
     }
 }

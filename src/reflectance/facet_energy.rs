@@ -27,14 +27,14 @@ pub struct Facet {
     pub cos_r: f64,
     /// cos α
     pub cos_alpha: f64,
-    /// The local angle of incidence θ′.
-    pub local: SinCos,
+    /// cos θ′ of the local angle of incidence.
+    pub cos_local: f64,
 }
 
 impl Facet {
     /// G of (65).
     pub fn groove(&self) -> f64 {
-        (2.0 * self.cos_alpha * self.cos_i.min(self.cos_r) / self.local.cos).min(1.0)
+        (2.0 * self.cos_alpha * self.cos_i.min(self.cos_r) / self.cos_local).min(1.0)
     }
 }
 
@@ -75,13 +75,7 @@ impl Facets {
                 let local = source.cos * cos + source.sin * sin * around;
                 let cos_r = 2.0 * local * cos - source.cos;
                 if local > 0.0 && cos_r > 0.0 {
-                    let sin_local = (1.0 - local * local).max(0.0).sqrt();
-                    let facet = Facet {
-                        cos_i: source.cos,
-                        cos_r,
-                        cos_alpha: cos,
-                        local: SinCos { sin: sin_local, cos: local },
-                    };
+                    let facet = Facet { cos_i: source.cos, cos_r, cos_alpha: cos, cos_local: local };
                     sum += weight * local * factor(&facet);
                 }
             }
@@ -111,10 +105,8 @@ mod tests {
                     + source.sin * sin * libm::cos(PI * (f64::from(j) + 0.5) / f64::from(around));
                 let cos_r = 2.0 * local * cos - source.cos;
                 if local > 0.0 && cos_r > 0.0 {
-                    let local = SinCos { sin: (1.0 - local * local).max(0.0).sqrt(), cos: local };
-                    sum += weight
-                        * local.cos
-                        * factor(&Facet { cos_i: source.cos, cos_r, cos_alpha: cos, local });
+                    let facet = Facet { cos_i: source.cos, cos_r, cos_alpha: cos, cos_local: local };
+                    sum += weight * local * factor(&facet);
                 }
             }
         }

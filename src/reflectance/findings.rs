@@ -52,6 +52,11 @@ pub(super) struct Concern {
 }
 
 impl Concern {
+    /// About every one of so many directions.
+    pub(super) fn of_all(count: usize, value: f64) -> Self {
+        Self { indices: (0..count.min(LISTED_INDICES)).collect(), count, largest: value }
+    }
+
     pub(super) fn add(&mut self, index: usize, value: f64) {
         if self.indices.len() < LISTED_INDICES {
             self.indices.push(index);
@@ -184,11 +189,11 @@ impl WarningCode {
             }
             Self::MultipleScatteringSignificant => {
                 "the models reflect light once, and more than a tenth of what is reflected from these sources meets \
-                 the surface again; value is the largest such share, good to 0.03 (sources beyond 85° are judged at 85°)"
+                 the surface again; value is the largest such share, good to 0.05 (sources beyond 85° are judged at 85°)"
             }
             Self::EnergyAboveOne => {
                 "the components reflect more light from these sources than arrives: value is the largest directional \
-                 albedo, by a coarse quadrature over the facets that is good to 0.03 of it (sources beyond 85° are judged \
+                 albedo, by a coarse quadrature over the facets that is good to 0.05 of it (sources beyond 85° are judged \
                  at 85°)"
             }
             Self::SmallSlopesViolated => {

@@ -105,6 +105,14 @@ pub(super) struct Reflection {
     pub(super) evaluated_by: EvaluatedBy,
 }
 
+impl Reflection {
+    /// Whether the total or a component is not 0 but below the normal numbers.
+    fn underflows(&self) -> bool {
+        let parts = self.components.iter().flatten().chain([&self.total]);
+        parts.map(|part| part.value).any(|value| !value.is_zero() && value.to_f64().abs() < f64::MIN_POSITIVE)
+    }
+}
+
 /// A scene ready to be evaluated for one quantity.
 pub(super) struct Kernel<'a> {
     scene: &'a Scene,
@@ -199,11 +207,19 @@ impl<'a> Kernel<'a> {
     }
 
     /// The evaluated components in one direction, from a value of S that is good enough for the tolerance in most
-    /// directions; else from the best one.
-    pub(super) fn reflect(&self, geometry: &Geometry, series: Option<LobeSeries>) -> Reflection {
+    /// directions; else from the best one. Where a value underflows its logarithm is all there is of it: if
+    /// `logarithms` are asked for they come from the best.
+    pub(super) fn reflect(
+        &self,
+        geometry: &Geometry,
+        series: Option<LobeSeries>,
+        logarithms: bool,
+    ) -> Reflection {
         if let Some(series) = series {
             let reflection = self.reflect_by(geometry, Some(&series));
-            if self.is_at_its_best() || reflection.total.relative_error() <= self.tolerance {
+            let is_enough = reflection.total.relative_error() <= self.tolerance
+                && !(logarithms && reflection.underflows());
+            if is_enough || self.is_at_its_best() {
                 return reflection;
             }
         }

@@ -182,8 +182,10 @@ impl<'a> Search<'a> {
     fn best(mut self) -> Option<Found> {
         let count = self.directions.count();
         // Single directions first: they decide most requests.
-        for index in [0, count / 2, count - 1] {
-            self.decide(index..index + 1, self.open);
+        if count > 8 {
+            for index in [0, count / 2, count - 1] {
+                self.decide(index..index + 1, self.open);
+            }
         }
         self.decide(0..count, self.open);
         let cost = |set: Set| {

@@ -84,6 +84,13 @@ pub fn smith_lambda(direction: SinCos, width: f64) -> f64 {
     (0.5 * (libm::exp(-v * v) / (PI.sqrt() * v) - libm::erfc(v))).max(0.0)
 }
 
+/// [`smith_lambda`] as B. Walter, S. Marschner, H. Li and K. Torrance approximate 1/(1 + Λ) ("Microfacet Models for
+/// Refraction through Rough Surfaces", 2007): that is good to 0.004, at a tenth of the price.
+pub(super) fn smith_visible_roughly(direction: SinCos, width: f64) -> f64 {
+    let v = direction.cos / (direction.sin * width);
+    if v < 1.6 { v * (3.535 + 2.181 * v) / (1.0 + v * (2.276 + 2.577 * v)) } else { 1.0 }
+}
+
 /// 2 cos α/cos θ′; none where v = 0.
 fn groove(geometry: &Geometry) -> Option<f64> {
     let length = geometry.length();
@@ -93,7 +100,7 @@ fn groove(geometry: &Geometry) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Shadowing, smith_lambda};
+    use super::{Shadowing, smith_lambda, smith_visible_roughly};
     use crate::reflectance::degrees::SinCos;
     use crate::reflectance::geometry::Geometry;
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
@@ -162,5 +169,16 @@ mod tests {
         }
         assert_eq!(smith_lambda(SinCos::of_degrees(0.0), 0.3), 0.0);
         assert_eq!(smith_lambda(SinCos::of_degrees(90.0), 0.3), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_rational_form_is_as_good_as_it_says() {
+        let mut worst: f64 = 0.0;
+        for step in 0..9000 {
+            let direction = SinCos::of_degrees(0.01 * f64::from(step));
+            let exact = 1.0 / (1.0 + smith_lambda(direction, 0.7));
+            worst = worst.max((smith_visible_roughly(direction, 0.7) - exact).abs());
+        }
+        assert!(worst < 0.004 && worst > 0.001, "{worst}");
     }
 }

@@ -128,3 +128,31 @@ fn the_ends_of_all_ranges_are_numbers_or_explained() {
         }
     }
 }
+
+#[test]
+fn the_logarithm_of_what_underflows_has_all_digits_at_every_tolerance() {
+    let mut random = Random::new(308);
+    let mut underflows = 0;
+    let output = Output { log10: true, per_direction: false };
+    for _ in 0..2_000 {
+        let parameters = scene(&mut random);
+        let Ok(finest) = Scene::new(with(&parameters, 1e-15, Method::Auto)) else { continue };
+        let finest = whole(finest.parameters());
+        let directions = directions(&mut random);
+        let exact = evaluate(&finest, &directions, Quantity::Radiance, output);
+        for tolerance in TOLERANCES {
+            let scene = Scene::new(with(finest.parameters(), tolerance, Method::Auto)).unwrap();
+            let answer = evaluate(&scene, &directions, Quantity::Radiance, output);
+            for (column, exact) in answer.components.iter().zip(&exact.components) {
+                for index in 0..directions.count() {
+                    if column.values[index].abs() < f64::MIN_POSITIVE {
+                        underflows += 1;
+                        let [got, expected] = [column, exact].map(|of| of.log10.as_ref().unwrap()[index]);
+                        assert_eq!(got.to_bits(), expected.to_bits(), "{tolerance:e}: {parameters:#?}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(underflows > 10_000, "{underflows}");
+}
