@@ -1,5 +1,5 @@
 //! Directions in blocks: geometry and lobe series of a block are worked out in vector lanes, the rest direction by
-//! direction; or all of it, where the answer is nothing but the lobe of a perfect conductor.
+//! direction; or all of it, where the answer is nothing but the lobe of (47).
 
 use super::beckmann_spizzichino::lanes::{Common, LobeLanes, State};
 use super::directions::Directions;
@@ -20,12 +20,12 @@ pub(super) struct Block {
 
 impl Block {
     pub(super) fn new() -> Self {
-        Self {
-            set: InstructionSet::widest(),
-            directions: DirectionLanes::new(),
-            geometries: Geometries::new(),
-            lobe: LobeLanes::new(),
-        }
+        Self::with(InstructionSet::widest())
+    }
+
+    /// What is computed does not depend on `set`.
+    pub(super) fn with(set: InstructionSet) -> Self {
+        Self { set, directions: DirectionLanes::new(), geometries: Geometries::new(), lobe: LobeLanes::new() }
     }
 
     /// Adds the directions of `range` to `answer`.

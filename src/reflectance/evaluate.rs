@@ -12,6 +12,9 @@ use super::scene::Scene;
 use super::strain;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
+#[cfg(test)]
+mod tests;
+
 pub use super::columns::ComponentColumn;
 pub use super::kernel::{EvaluatedBy, Quantity};
 
@@ -67,11 +70,11 @@ pub(super) fn evaluate_required(
     output: Output,
     requirement: Requirement,
 ) -> Evaluation {
-    let Requirement { evaluated, omitted, share } = requirement;
+    let Requirement { evaluated, omitted, share, extents } = requirement;
     let needed = scene.with_only(&evaluated);
     let kernel = Kernel::new(&needed, quantity, share);
     let count = directions.count();
-    let warnings = strain::warnings(scene, &needed, directions, &omitted);
+    let warnings = strain::warnings(scene, &needed, directions, &extents, &omitted);
     let mut whole = Answer::new(&needed, count, output, share);
     let threads = if count > PART { rayon::current_num_threads() } else { 1 };
     if threads == 1 {

@@ -4,6 +4,7 @@
 pub(super) mod lanes;
 
 use super::degrees::SinCos;
+use super::numeric::elementary::hypotenuse;
 use super::quantity::{Azimuth, SourceZenith, ViewerZenith};
 
 /// What a geometry is made of.
@@ -21,16 +22,6 @@ struct Sines {
     azimuth: SinCos,
     /// `θ_r` < 0
     behind: bool,
-}
-
-/// √(a² + b²) for magnitudes up to 1, without squares that underflow. Relative error below 3 ε.
-#[inline(always)]
-fn hypotenuse(a: f64, b: f64) -> f64 {
-    let (a, b) = (a.abs(), b.abs());
-    let (large, small) = if a > b { (a, b) } else { (b, a) };
-    // The smallest normal number in place of 0: a quotient 0/0 would be none.
-    let ratio = small / large.max(f64::MIN_POSITIVE);
-    large * (1.0 + ratio * ratio).sqrt()
 }
 
 /// One pair of directions. The source lies at azimuth 180° of the x axis' half plane, so that
@@ -144,8 +135,9 @@ impl Geometry {
     }
 
     /// 2 cos `θ′`: the length of v/k.
+    #[inline(always)]
     pub fn length(&self) -> f64 {
-        libm::hypot(self.cos_sum, self.horizontal)
+        hypotenuse(self.cos_sum, self.horizontal)
     }
 
     /// q (1 + tan² α) = 4 cos² `θ′`/q; `D` of (36) is this over 2 cos `θ_i`.
@@ -170,9 +162,10 @@ impl Geometry {
     }
 
     /// sin and cos of `θ′`, the local angle of incidence (59).
+    #[inline(always)]
     pub fn local_incidence(&self) -> SinCos {
         SinCos {
-            sin: libm::hypot(
+            sin: hypotenuse(
                 self.half_difference.sin,
                 self.sin_i.max(0.0).sqrt() * self.sin_r.sqrt() * self.half_azimuth.cos,
             ),

@@ -15,6 +15,7 @@ use super::numeric::scaled::Scaled;
 use super::quantity::Wavelength;
 use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::Shadowing;
+use super::shadowing::lanes::Cosines;
 use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
@@ -171,19 +172,17 @@ impl<'a> Kernel<'a> {
         self.roughness.filter(|_| is_needed).map(|roughness| (roughness, choice))
     }
 
-    /// What the directions have in common if the answer is nothing but the unshadowed lobe of a perfect conductor.
+    /// What the directions have in common if the answer is nothing but the lobe of (47).
     pub(super) fn lobe_alone(&self) -> Option<Common> {
-        let alone = self.scene.evaluated() == [Component::SpecularLobe]
-            && self.medium == Medium::PerfectConductor
-            && self.shadowing == Shadowing::None;
+        let alone = self.scene.evaluated() == [Component::SpecularLobe];
         let (roughness, _) = self.series().filter(|_| alone)?;
-        match self.quantity {
-            Quantity::Radiance => {
-                Some(Common { roughness, strength: self.irradiance, over_both_cosines: false })
-            }
-            Quantity::Brdf => Some(Common { roughness, strength: 1.0, over_both_cosines: true }),
-            Quantity::ImageIrradiance { .. } => None,
-        }
+        let (strength, cosines) = match self.quantity {
+            Quantity::Radiance => (self.irradiance, Cosines::OfView),
+            Quantity::Brdf => (1.0, Cosines::OfBoth),
+            Quantity::ImageIrradiance { .. } => return None,
+        };
+        let (medium, polarization, shadowing) = (self.medium, self.polarization, self.shadowing);
+        Some(Common { roughness, medium, polarization, strength, shadowing, cosines })
     }
 
     /// g of (34) between these directions, where the scene has heights and a wavelength.

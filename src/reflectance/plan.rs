@@ -4,11 +4,12 @@
 //! the series, its bound and its cost, is looked up in some directions only, equally spaced along the request.
 
 use super::cost::{self, Lobe};
-use super::directions::Directions;
+use super::directions::{Directions, Extents};
 use super::evaluate::{EvaluatedBy, Evaluation, Output, Quantity, evaluate_required};
 use super::findings::{Omitted, Warning};
 use super::numeric::lobe_series::{self, Method};
-use super::requirement::{self, Requirement};
+use super::region::Region;
+use super::requirement::Requirement;
 use super::scene::{Component, Model, Scene};
 use super::strain;
 use super::surface::Regime;
@@ -85,8 +86,9 @@ impl Plan {
         let output = Output { log10: false, per_direction: true };
         let evaluation = evaluate_required(scene, &sampled, Quantity::Radiance, output, requirement.clone());
         let by = evaluation.method.as_deref().unwrap_or_default();
-        let roughness_g = g_extremes(scene, directions);
-        let mut warnings = strain::warnings(scene, &needed, directions, &requirement.omitted);
+        let roughness_g = g_extremes(scene, &requirement.extents);
+        let mut warnings =
+            strain::warnings(scene, &needed, directions, &requirement.extents, &requirement.omitted);
         warnings.extend(of_values(&evaluation, &indices));
         let finite = evaluation
             .relative_error_bound
@@ -117,9 +119,9 @@ fn sample(count: usize) -> Vec<usize> {
 }
 
 /// g over all directions, or beyond.
-fn g_extremes(scene: &Scene, directions: &Directions) -> Option<[f64; 2]> {
+fn g_extremes(scene: &Scene, extents: &Extents) -> Option<[f64; 2]> {
     let roughness = scene.relative_roughness()?;
-    let cos_sum = requirement::region(directions, &(0..directions.count())).cos_sum;
+    let cos_sum = Region::new(extents, None).cos_sum;
     Some([cos_sum.least, cos_sum.most].map(|cos_sum| {
         let root = 2.0 * PI * roughness.height * cos_sum;
         root * root

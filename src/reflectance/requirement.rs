@@ -5,7 +5,7 @@
 //! direction. The directions are bounded by regions, halved where a region as a whole decides nothing; a region in which the
 //! component surely matters ends the search. What the search cannot afford to decide is computed: that is never wrong.
 
-use super::directions::Directions;
+use super::directions::{Directions, Extents};
 use super::envelope::{Envelopes, NOTHING};
 use super::findings::Omitted;
 use super::fresnel::Medium;
@@ -31,13 +31,16 @@ pub(super) struct Requirement {
     /// What the omitted components add to the total at most, relative to the evaluated ones; without a spike that has no
     /// sensor, whose radiance is not known.
     pub(super) share: f64,
+    /// What the directions span.
+    pub(super) extents: Extents,
 }
 
 impl Requirement {
     /// Of a scene in these directions.
     pub(super) fn of(scene: &Scene, directions: &Directions) -> Self {
+        let extents = directions.extents(0..directions.count());
         if scene.parameters().components != Components::Auto {
-            return Self { evaluated: scene.evaluated().to_vec(), omitted: Vec::new(), share: 0.0 };
+            return Self { evaluated: scene.evaluated().to_vec(), omitted: Vec::new(), share: 0.0, extents };
         }
         let mut omitted = Vec::new();
         let mut remaining = scene.evaluated().to_vec();
@@ -60,7 +63,7 @@ impl Requirement {
             share = found.share;
         }
         if lacks_sensor(scene) {
-            let bound = spike_share(scene, directions);
+            let bound = spike_share(scene, &extents);
             omitted.push(Omitted {
                 component: Component::SpecularSpike,
                 bound,
@@ -68,7 +71,7 @@ impl Requirement {
                          of the reflected energy, not of the radiance",
             });
         }
-        Self { evaluated: remaining, omitted, share }
+        Self { evaluated: remaining, omitted, share, extents }
     }
 }
 
@@ -81,9 +84,9 @@ pub(super) fn lacks_sensor(scene: &Scene) -> bool {
 }
 
 /// The largest e^{−g} over the directions, or above it: the spike's share of the reflected energy.
-fn spike_share(scene: &Scene, directions: &Directions) -> Option<f64> {
+fn spike_share(scene: &Scene, extents: &Extents) -> Option<f64> {
     let roughness = scene.relative_roughness()?;
-    let region = region(directions, &(0..directions.count()));
+    let region = Region::new(extents, None);
     let root = 2.0 * core::f64::consts::PI * roughness.height * region.cos_sum.least;
     Some(libm::exp(-root * root))
 }
@@ -128,7 +131,7 @@ fn negligible(scene: &Scene, component: Component) -> &'static str {
 }
 
 /// The region of some directions.
-pub(super) fn region(directions: &Directions, range: &Range<usize>) -> Region {
+fn region(directions: &Directions, range: &Range<usize>) -> Region {
     let direction = (range.len() == 1).then(|| directions.geometry(range.start));
     Region::new(&directions.extents(range.clone()), direction)
 }

@@ -1,5 +1,7 @@
 //! Shadowing and masking of facets by their neighbours: the G of (65).
 
+pub(super) mod lanes;
+
 use super::degrees::SinCos;
 use super::geometry::Geometry;
 use core::f64::consts::PI;
@@ -30,45 +32,38 @@ impl Shadowing {
     pub fn factor(self, geometry: &Geometry) -> f64 {
         match self {
             Self::None => 1.0,
-            Self::VGroove => {
-                let Some(groove) = groove(geometry) else { return f64::NAN };
-                (groove * geometry.cos_i.min(geometry.cos_r)).clamp(0.0, 1.0)
-            }
+            Self::VGroove => (groove(geometry) * geometry.cos_i.min(geometry.cos_r)).clamp(0.0, 1.0),
         }
     }
 
     /// G/cos θ_r, the factor of (70) that stays finite at grazing view if there are V-grooves: both go
     /// to zero at the same rate and the ratio to 2 cos α/cos θ′ (errata E38). Without shadowing it is
     /// infinite at cos θ_r = 0. NaN as [`Self::factor`]. Relative error below 16 ε.
+    #[inline(always)]
     pub fn factor_over_cos_r(self, geometry: &Geometry) -> f64 {
         let &Geometry { cos_i, cos_r, .. } = geometry;
+        let whole = 1.0 / cos_r;
         match self {
-            Self::None => 1.0 / cos_r,
+            Self::None => whole,
             Self::VGroove => {
-                let Some(groove) = groove(geometry) else { return f64::NAN };
-                if cos_r <= cos_i {
-                    // At cos θ_r = 0 the second is infinite and the minimum finite.
-                    groove.min(1.0 / cos_r)
-                } else {
-                    (groove * cos_i / cos_r).min(1.0 / cos_r).max(0.0)
-                }
+                let groove = groove(geometry);
+                let hidden = groove * cos_i / cos_r;
+                // At cos θ_r = 0 the whole is infinite and the minimum finite.
+                least(if cos_r <= cos_i { groove } else { hidden }, whole)
             }
         }
     }
 
     /// G/(cos θ_i cos θ_r), the factor of a BRDF, in the form that stays finite at grazing source or
     /// view if there are V-grooves. NaN as [`Self::factor`]. Relative error below 16 ε.
+    #[inline(always)]
     pub fn factor_over_cosines(self, geometry: &Geometry) -> f64 {
         let &Geometry { cos_i, cos_r, .. } = geometry;
         let both = 1.0 / (cos_i * cos_r);
         match self {
             Self::None => both,
-            Self::VGroove => {
-                let Some(groove) = groove(geometry) else { return f64::NAN };
-                // 0/0 where both directions are grazing.
-                let hidden = groove / cos_i.max(cos_r);
-                if hidden.is_nan() { hidden } else { hidden.min(both) }
-            }
+            // 0/0 where both directions are grazing.
+            Self::VGroove => least(groove(geometry) / cos_i.max(cos_r), both),
         }
     }
 }
@@ -91,11 +86,18 @@ pub(super) fn smith_visible_roughly(direction: SinCos, width: f64) -> f64 {
     if v < 1.6 { v * (3.535 + 2.181 * v) / (1.0 + v * (2.276 + 2.577 * v)) } else { 1.0 }
 }
 
-/// 2 cos α/cos θ′; none where v = 0.
-fn groove(geometry: &Geometry) -> Option<f64> {
+/// 2 cos α/cos θ′; NaN, 0/0, where v = 0.
+#[inline(always)]
+fn groove(geometry: &Geometry) -> f64 {
     let length = geometry.length();
-    // v/k is 0 or above 1e-17: its square cannot underflow.
-    (length > 0.0).then(|| 4.0 * geometry.cos_sum / (length * length))
+    4.0 * geometry.cos_sum / (length * length)
+}
+
+/// The smaller of G's two forms, NaN where the first is, and not below 0.
+#[inline(always)]
+fn least(hidden: f64, whole: f64) -> f64 {
+    let least = if whole < hidden { whole } else { hidden };
+    if least < 0.0 { 0.0 } else { least }
 }
 
 #[cfg(test)]

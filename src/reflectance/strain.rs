@@ -29,6 +29,7 @@ pub(super) fn warnings(
     scene: &Scene,
     needed: &Scene,
     directions: &Directions,
+    extents: &Extents,
     omitted: &[Omitted],
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
@@ -40,9 +41,8 @@ pub(super) fn warnings(
     }
     let unused = scene.unused().into_iter();
     warnings.extend(unused.map(|name| Warning::of_scene(WarningCode::ParameterNotUsed, None, Some(name))));
-    let extents = directions.extents(0..directions.count());
     if needed.evaluated().contains(&Component::SpecularLobe) {
-        of_directions(needed, directions, &extents, &mut warnings);
+        of_directions(needed, directions, extents, &mut warnings);
     }
     // Of all that the scene reflects, also where these directions need not all of it.
     if let Some(energy) = SourceEnergy::of(scene) {

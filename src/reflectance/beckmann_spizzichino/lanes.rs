@@ -2,22 +2,28 @@
 //! rest is left to [`RelativeRoughness::lobe`](super::RelativeRoughness::lobe).
 
 use super::{G_UNITS, PREFACTOR_UNITS, RelativeRoughness, X_UNITS};
+use crate::reflectance::fresnel::lanes::ReflectanceLanes;
+use crate::reflectance::fresnel::{Medium, Polarization};
 use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::elementary::{binary_exponent, scale};
 use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES, Lanes};
 use crate::reflectance::numeric::lobe_series::{LobeSeries, Method, ROUNDING_UNITS};
+use crate::reflectance::shadowing::Shadowing;
+use crate::reflectance::shadowing::lanes::{Cosines, over_cosines};
 use core::f64::consts::PI;
 
 /// What the directions of a block have in common.
 #[derive(Clone, Copy)]
 pub(in crate::reflectance) struct Common {
     pub(in crate::reflectance) roughness: RelativeRoughness,
+    pub(in crate::reflectance) medium: Medium,
+    pub(in crate::reflectance) polarization: Polarization,
     /// What multiplies the lobe: the irradiance for a radiance, 1 for a BRDF.
     pub(in crate::reflectance) strength: f64,
-    /// A BRDF has 1/cos θ_i, too.
-    pub(in crate::reflectance) over_both_cosines: bool,
+    pub(in crate::reflectance) shadowing: Shadowing,
+    pub(in crate::reflectance) cosines: Cosines,
 }
 
 /// How far the vector path got with a direction.
@@ -37,6 +43,8 @@ pub(in crate::reflectance) struct LobeLanes {
     pub(in crate::reflectance) g: Lanes,
     x: Lanes,
     series: Batch,
+    reflectance: ReflectanceLanes,
+    over_cosines: Lanes,
     pub(in crate::reflectance) value: Lanes,
     /// Bound of the relative error.
     pub(in crate::reflectance) bound: Lanes,
@@ -48,7 +56,17 @@ pub(in crate::reflectance) struct LobeLanes {
 impl LobeLanes {
     pub(in crate::reflectance) const fn new() -> Self {
         let zero = [0.0; LANES];
-        Self { g: zero, x: zero, series: Batch::new(), value: zero, bound: zero, rounding: zero, state: zero }
+        Self {
+            g: zero,
+            x: zero,
+            series: Batch::new(),
+            reflectance: ReflectanceLanes::new(),
+            over_cosines: zero,
+            value: zero,
+            bound: zero,
+            rounding: zero,
+            state: zero,
+        }
     }
 
     /// S in each direction.
@@ -74,7 +92,7 @@ impl LobeLanes {
         self.series.method[lane]
     }
 
-    /// Value and bound of the unshadowed lobe in each direction, from S.
+    /// Value and bound of the lobe in each direction, from S.
     pub(in crate::reflectance) fn combine(
         &mut self,
         set: InstructionSet,
@@ -82,6 +100,8 @@ impl LobeLanes {
         geometries: &Geometries,
         count: usize,
     ) {
+        self.reflectance.fill(set, common.medium, common.polarization, geometries, count);
+        over_cosines(set, common.shadowing, common.cosines, geometries, count, &mut self.over_cosines);
         combined(set, common, geometries, count, self);
     }
 
@@ -121,14 +141,15 @@ fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: 
         let (cos_sum, horizontal) = (geometries.cos_sum[lane], geometries.horizontal[lane]);
         let length_squared = cos_sum * cos_sum + horizontal * horizontal;
         let patch = common.roughness.correlation_length * (length_squared / cos_sum);
-        let cosines = if common.over_both_cosines { geometries.cos_i[lane] } else { 1.0 };
-        let factor = patch * patch * (0.25 * PI) / (geometries.cos_r[lane] * cosines) * common.strength;
+        let strength = common.strength * lobe.reflectance.value[lane];
+        let factor = patch * patch * (0.25 * PI) * lobe.over_cosines[lane] * strength;
         let (significand, exponent) = (factor * lobe.series.significand[lane], lobe.series.exponent[lane]);
         let (condition_g, condition_x) = (lobe.series.condition_g[lane], lobe.series.condition_x[lane]);
         let rounding = EPSILON
             * ((ROUNDING_UNITS + PREFACTOR_UNITS)
                 + (ROUNDING_UNITS + G_UNITS) * condition_g
-                + (ROUNDING_UNITS + X_UNITS) * condition_x);
+                + (ROUNDING_UNITS + X_UNITS) * condition_x)
+            + lobe.reflectance.distance[lane];
         // |ln(value/exact)|; e^d − 1 < d + d² for d < 1.
         let distance = lobe.series.truncation[lane] * (1.0 + lobe.series.truncation[lane]) + rounding;
         let value = scale(significand, exponent);

@@ -36,10 +36,12 @@ struct Parts {
 
 impl RefractiveIndex {
     /// Whether both media are the same, so that there is no surface: F = 0 at every angle.
+    #[inline(always)]
     fn is_no_surface(self) -> bool {
         self.n.get() == 1.0 && self.k.get() == 0.0
     }
 
+    #[inline(always)]
     fn parts(self, SinCos { sin: s, cos: c }: SinCos) -> Parts {
         let (n, k) = (self.n.get(), self.k.get());
         let absorption = -2.0 * n * k;
@@ -60,16 +62,11 @@ impl RefractiveIndex {
     /// The energies (62) as |Y² − 1|² |Y² c² − s²|²/|Y² c + root|⁴ and |Y² − 1|²/|c + root|⁴.
     ///
     /// Domain: sine s and cosine c in [0, 1], each known to [`ANGLE_ERROR`]. Beyond the critical angle of a medium
-    /// without absorption both are exactly 1.
+    /// without absorption both are exactly 1. Without branches: lanes call it as well.
+    #[inline(always)]
     pub fn energies(self, incidence: SinCos) -> Energies {
         let SinCos { sin: s, cos: c } = incidence;
         let (n, k) = (self.n.get(), self.k.get());
-        if self.is_no_surface() {
-            return Energies::NONE;
-        }
-        if k == 0.0 && n < s * (1.0 - 2.0 * ANGLE_ERROR) {
-            return Energies { parallel: Energy::ONE, perpendicular: Energy::ONE };
-        }
         let parts = self.parts(incidence);
         let root_error = root_error(n, k, s, parts.root.norm());
         let contrast = parts.contrast.norm();
@@ -90,7 +87,16 @@ impl RefractiveIndex {
             fourth_power_error((ANGLE_ERROR + 5.0 * EPSILON) * (n * n + k * k) * c / sum + root_error / sum);
         let para_error = zero_error * (1.0 + relative) + e_para * relative;
 
-        Energies { parallel: Energy::new(e_para, para_error), perpendicular: Energy::new(e_perp, perp_error) }
+        let (is_none, is_total) = (self.is_no_surface(), (k == 0.0) & (n < s * (1.0 - 2.0 * ANGLE_ERROR)));
+        let known = if is_total { 1.0 } else { 0.0 };
+        let energy = |value: f64, error: f64| {
+            let Energy { value, error } = Energy::new(value, error);
+            Energy {
+                value: if is_none | is_total { known } else { value },
+                error: if is_none | is_total { 0.0 } else { error },
+            }
+        };
+        Energies { parallel: energy(e_para, para_error), perpendicular: energy(e_perp, perp_error) }
     }
 
     /// The field coefficients (24), (25) for n − ik or n + ik by the sign of the time factor.
@@ -120,15 +126,18 @@ impl RefractiveIndex {
 }
 
 /// Absolute error of √(Y² − s²), from that of the radicand: s² carries 2 [`ANGLE_ERROR`], the rest roundings.
+#[inline(always)]
 fn root_error(n: f64, k: f64, s: f64, root: f64) -> f64 {
     let radicand =
         2.0 * ANGLE_ERROR * s * s + 4.0 * EPSILON * (((n - s) * (n + s)).abs() + k * k + 2.0 * n * k);
     // Both roots lie in one quadrant, so |a − b| ≤ |a² − b²|/|a| and |a − b| ≤ √|a² − b²|.
-    let from_radicand = if root * root > radicand { radicand / root } else { radicand.sqrt() };
+    let (above, next_to_zero) = (radicand / root, radicand.sqrt());
+    let from_radicand = if root * root > radicand { above } else { next_to_zero };
     from_radicand + 4.0 * EPSILON * root
 }
 
 /// Absolute error of Y² c² − s²: each square carries 2 [`ANGLE_ERROR`] and up to 6 roundings.
+#[inline(always)]
 fn brewster_error(n: f64, k: f64, s: f64, c: f64) -> f64 {
     let reach = (n + k) * c;
     (2.0 * ANGLE_ERROR + 6.0 * EPSILON) * (reach * reach + s * s)
@@ -136,15 +145,13 @@ fn brewster_error(n: f64, k: f64, s: f64, c: f64) -> f64 {
 
 /// Relative error of an energy whose denominator, a fourth power, is known to the relative `error` before it is
 /// raised: (1 − d)⁻⁴ − 1 ≤ 4d/(1 − d)⁴, and the roundings of |Y² − 1|² (16 ε), of the sums and of the quotients.
+#[inline(always)]
 fn fourth_power_error(error: f64) -> f64 {
     let d = error + 2.0 * EPSILON;
-    if d < 0.5 {
-        let rest = (1.0 - d) * (1.0 - d);
-        4.0 * d / (rest * rest) + 28.0 * EPSILON
-    } else {
-        // Nothing is known; the bound of the energy is cut at 1.
-        1e150
-    }
+    let rest = (1.0 - d) * (1.0 - d);
+    let relative = 4.0 * d / (rest * rest) + 28.0 * EPSILON;
+    // Else nothing is known; the bound of the energy is cut at 1.
+    if d < 0.5 { relative } else { 1e150 }
 }
 
 #[cfg(test)]

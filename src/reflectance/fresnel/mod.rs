@@ -11,6 +11,7 @@ use super::numeric::{EPSILON, scaled::Scaled};
 
 mod complex;
 mod index;
+pub(super) mod lanes;
 mod polarization;
 
 pub use complex::Complex;
@@ -60,6 +61,7 @@ impl Energy {
     pub const ZERO: Self = Self { value: 0.0, error: 0.0 };
 
     /// A share lies between 0 and 1, and so does its error. The smallest normal number covers what underflowed.
+    #[inline(always)]
     fn new(value: f64, error: f64) -> Self {
         Self { value: value.min(1.0), error: (error + f64::MIN_POSITIVE).min(1.0) }
     }
@@ -86,15 +88,15 @@ impl Energies {
     pub const NONE: Self = Self { parallel: Energy::ZERO, perpendicular: Energy::ZERO };
 
     /// F′ of (63).
+    #[inline(always)]
     pub fn mixed(&self, polarization: Polarization) -> Energy {
-        if *self == Self::NONE {
-            return Energy::ZERO;
-        }
         let (h, v) = (polarization.h(), polarization.v());
         let value = h * self.parallel.value + v * self.perpendicular.value;
         // h + v may miss 1 by SUM_SLACK; two products and a sum.
         let rounding = if h == 1.0 || v == 1.0 { 0.0 } else { 3.0 * EPSILON * value };
-        Energy::new(value, h * self.parallel.error + v * self.perpendicular.error + rounding)
+        let mixed = Energy::new(value, h * self.parallel.error + v * self.perpendicular.error + rounding);
+        // Nothing is nothing exactly.
+        Energy { value: mixed.value, error: if *self == Self::NONE { 0.0 } else { mixed.error } }
     }
 }
 

@@ -57,11 +57,13 @@ impl Polarization {
     }
 
     /// The share polarized parallel to the plane of incidence.
+    #[inline(always)]
     pub fn h(self) -> f64 {
         self.parallel.get()
     }
 
     /// The share polarized perpendicular to it.
+    #[inline(always)]
     pub fn v(self) -> f64 {
         self.perpendicular.get()
     }

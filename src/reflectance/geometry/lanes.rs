@@ -149,6 +149,7 @@ impl Geometries {
     }
 
     /// One of them.
+    #[inline(always)]
     pub(in crate::reflectance) fn get(&self, lane: usize) -> Geometry {
         Geometry {
             cos_i: self.cos_i[lane],
