@@ -31,16 +31,16 @@ fn each(shadowing: Shadowing, cosines: Cosines, geometries: &Geometries, count: 
     // The match stands outside of the loops: each of them is one branch-free expression.
     match (shadowing, cosines) {
         (Shadowing::None, Cosines::OfView) => {
-            fill(over, count, geometries, |geometry| Shadowing::None.factor_over_cos_r(geometry))
+            fill(over, count, geometries, |geometry| Shadowing::None.factor_over_cos_r(geometry));
         }
         (Shadowing::None, Cosines::OfBoth) => {
-            fill(over, count, geometries, |geometry| Shadowing::None.factor_over_cosines(geometry))
+            fill(over, count, geometries, |geometry| Shadowing::None.factor_over_cosines(geometry));
         }
         (Shadowing::VGroove, Cosines::OfView) => {
-            fill(over, count, geometries, |geometry| Shadowing::VGroove.factor_over_cos_r(geometry))
+            fill(over, count, geometries, |geometry| Shadowing::VGroove.factor_over_cos_r(geometry));
         }
         (Shadowing::VGroove, Cosines::OfBoth) => {
-            fill(over, count, geometries, |geometry| Shadowing::VGroove.factor_over_cosines(geometry))
+            fill(over, count, geometries, |geometry| Shadowing::VGroove.factor_over_cosines(geometry));
         }
     }
 }
