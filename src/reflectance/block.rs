@@ -1,13 +1,15 @@
 //! Directions in blocks: geometry and lobe series of a block are worked out in vector lanes, the rest direction by
-//! direction; or all of it, where the answer is nothing but the lobe of (47).
+//! direction; or all of it, where [`InLanes`] says so.
 
-use super::beckmann_spizzichino::lanes::{Common, LobeLanes, State};
+use super::beckmann_spizzichino::lanes::{LobeLanes, State};
 use super::directions::Directions;
 use super::evaluate::{Answer, EvaluatedBy};
 use super::geometry::lanes::{DirectionLanes, Geometries, fill};
-use super::kernel::Kernel;
+use super::kernel::{InLanes, Kernel};
 use super::numeric::dispatch::InstructionSet;
 use super::numeric::lobe_series::lanes::LANES;
+use super::scene::Component;
+use super::torrance_sparrow::lanes::FacetLanes;
 use core::ops::Range;
 
 /// Room for one block of directions.
@@ -16,6 +18,7 @@ pub(super) struct Block {
     directions: DirectionLanes,
     geometries: Geometries,
     lobe: LobeLanes,
+    facets: FacetLanes,
 }
 
 impl Block {
@@ -25,7 +28,13 @@ impl Block {
 
     /// What is computed does not depend on `set`.
     pub(super) fn with(set: InstructionSet) -> Self {
-        Self { set, directions: DirectionLanes::new(), geometries: Geometries::new(), lobe: LobeLanes::new() }
+        Self {
+            set,
+            directions: DirectionLanes::new(),
+            geometries: Geometries::new(),
+            lobe: LobeLanes::new(),
+            facets: FacetLanes::new(),
+        }
     }
 
     /// Adds the directions of `range` to `answer`.
@@ -43,8 +52,15 @@ impl Block {
             if let Some((roughness, choice)) = kernel.series() {
                 self.lobe.expand(self.set, choice, roughness, &self.geometries, count);
             }
-            match kernel.lobe_alone().filter(|_| !answer.has_logarithms()) {
-                Some(common) => self.lobe_alone(kernel, common, first, count, answer),
+            match kernel.in_lanes().filter(|_| !answer.has_logarithms()) {
+                Some(InLanes::HeightLobe(common)) => {
+                    self.lobe.combine(self.set, common, &self.geometries, count);
+                    self.runs(kernel, first, count, answer, Self::has_lobe, Self::push_lobes);
+                }
+                Some(InLanes::Facets(common)) => {
+                    self.facets.combine(self.set, common, &self.geometries, count);
+                    self.runs(kernel, first, count, answer, Self::has_facets, Self::push_facets);
+                }
                 None => (0..count).for_each(|lane| self.direction(kernel, first, lane, answer)),
             }
             if answer.needs_g() {
@@ -55,22 +71,20 @@ impl Block {
         }
     }
 
-    /// Runs of directions in which the lobe is an ordinary number, and one by one those in between.
-    fn lobe_alone(
-        &mut self,
+    /// Runs of directions in which nothing better than what is there is to be had, and one by one those in between.
+    fn runs(
+        &self,
         kernel: &Kernel<'_>,
-        common: Common,
         first: usize,
         count: usize,
         answer: &mut Answer<'_>,
+        is_done: impl Fn(&Self, &Kernel<'_>, usize) -> bool,
+        push: impl Fn(&Self, usize, Range<usize>, &mut Answer<'_>),
     ) {
-        self.lobe.combine(self.set, common, &self.geometries, count);
         let mut lane = 0;
         while lane < count {
-            let done = (lane..count).take_while(|&lane| self.is_done(kernel, lane)).count();
-            let run = lane..lane + done;
-            let by = |place| EvaluatedBy::Lobe(self.lobe.method(lane + place));
-            answer.extend(first + lane, &self.lobe.value[run.clone()], &self.lobe.bound[run], by);
+            let done = (lane..count).take_while(|&lane| is_done(self, kernel, lane)).count();
+            push(self, first + lane, lane..lane + done, answer);
             lane += done;
             if lane < count {
                 self.direction(kernel, first, lane, answer);
@@ -79,13 +93,32 @@ impl Block {
         }
     }
 
-    /// Whether nothing better than what is there is to be had.
-    fn is_done(&self, kernel: &Kernel<'_>, lane: usize) -> bool {
+    fn has_lobe(&self, kernel: &Kernel<'_>, lane: usize) -> bool {
         match self.lobe.state(lane) {
             State::Dark => true,
             State::Plain => kernel.is_enough(self.lobe.bound[lane], self.lobe.rounding[lane]),
             State::Left => false,
         }
+    }
+
+    fn push_lobes(&self, first: usize, run: Range<usize>, answer: &mut Answer<'_>) {
+        let lane = run.start;
+        let by = |place| EvaluatedBy::Lobe(self.lobe.method(lane + place));
+        let values = &self.lobe.value[run.clone()];
+        answer.extend(first, values, &self.lobe.bound[run], |_| values, by);
+    }
+
+    fn has_facets(&self, kernel: &Kernel<'_>, lane: usize) -> bool {
+        self.facets.is_dark(lane) || kernel.keeps(self.facets.bound[lane])
+    }
+
+    fn push_facets(&self, first: usize, run: Range<usize>, answer: &mut Answer<'_>) {
+        let of = |component| match component {
+            Component::DiffuseLobe => &self.facets.diffuse[run.clone()],
+            Component::SpecularLobe | Component::SpecularSpike => &self.facets.lobe[run.clone()],
+        };
+        let (totals, bounds) = (&self.facets.total[run.clone()], &self.facets.bound[run.clone()]);
+        answer.extend(first, totals, bounds, of, |_| EvaluatedBy::ClosedForm);
     }
 
     fn direction(&self, kernel: &Kernel<'_>, first: usize, lane: usize, answer: &mut Answer<'_>) {

@@ -54,12 +54,12 @@ impl Columns {
         }
     }
 
-    /// Adds directions in which one component is all there is, and an ordinary number.
-    pub(super) fn extend(&mut self, values: &[f64], bounds: &[f64]) {
+    /// Adds directions in which all is an ordinary number or 0; `of` gives each component's values.
+    pub(super) fn extend<'a>(&mut self, values: &[f64], bounds: &[f64], of: impl Fn(Component) -> &'a [f64]) {
         self.total.extend_from_slice(values);
         self.relative_error_bound.extend(bounds.iter().map(|bound| bound + self.omitted_share));
         for column in &mut self.components {
-            column.values.extend_from_slice(values);
+            column.values.extend_from_slice(of(column.component));
         }
     }
 

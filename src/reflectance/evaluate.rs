@@ -8,7 +8,7 @@ use super::kernel::{Kernel, Reflection};
 use super::numeric::lobe_series::Method;
 use super::numeric::lobe_series::lanes::LANES;
 use super::requirement::Requirement;
-use super::scene::Scene;
+use super::scene::{Component, Scene};
 use super::strain;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
@@ -157,16 +157,17 @@ impl<'a> Answer<'a> {
         self.count(reflection.evaluated_by);
     }
 
-    /// Directions in which one component is all there is; none of the numbers needs a word but those that are 0
-    /// because they underflow.
-    pub(super) fn extend(
+    /// Directions none of whose numbers needs a word but totals that are 0 because they underflow; `of` gives each
+    /// component's values.
+    pub(super) fn extend<'b>(
         &mut self,
         first: usize,
         values: &[f64],
         bounds: &[f64],
+        of: impl Fn(Component) -> &'b [f64],
         by: impl Fn(usize) -> EvaluatedBy,
     ) {
-        self.columns.extend(values, bounds);
+        self.columns.extend(values, bounds, of);
         let tolerance = self.scene.parameters().accuracy.relative_tolerance.get();
         let share = self.columns.omitted_share;
         let mut needs_a_word = false;

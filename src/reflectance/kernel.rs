@@ -1,8 +1,9 @@
 //! A scene made ready: what does not depend on the direction is worked out once, what does is
 //! evaluated without allocating.
 
+mod in_lanes;
+
 use super::beckmann_spizzichino::RelativeRoughness;
-use super::beckmann_spizzichino::lanes::Common;
 use super::estimate::Estimate;
 use super::fresnel::{Medium, Polarization};
 use super::geometry::Geometry;
@@ -15,10 +16,11 @@ use super::numeric::scaled::Scaled;
 use super::quantity::Wavelength;
 use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::Shadowing;
-use super::shadowing::lanes::Cosines;
 use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
+
+pub(super) use in_lanes::InLanes;
 
 /// Radiance `L_r` (2), BRDF `f_r = L_r/I_s` (3), or what an image of the surface receives, (51).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,19 +174,6 @@ impl<'a> Kernel<'a> {
         self.roughness.filter(|_| is_needed).map(|roughness| (roughness, choice))
     }
 
-    /// What the directions have in common if the answer is nothing but the lobe of (47).
-    pub(super) fn lobe_alone(&self) -> Option<Common> {
-        let alone = self.scene.evaluated() == [Component::SpecularLobe];
-        let (roughness, _) = self.series().filter(|_| alone)?;
-        let (strength, cosines) = match self.quantity {
-            Quantity::Radiance => (self.irradiance, Cosines::OfView),
-            Quantity::Brdf => (1.0, Cosines::OfBoth),
-            Quantity::ImageIrradiance { .. } => return None,
-        };
-        let (medium, polarization, shadowing) = (self.medium, self.polarization, self.shadowing);
-        Some(Common { roughness, medium, polarization, strength, shadowing, cosines })
-    }
-
     /// g of (34) between these directions, where the scene has heights and a wavelength.
     pub(super) fn g(&self, geometry: &Geometry) -> Option<f64> {
         self.roughness.map(|roughness| roughness.g(geometry))
@@ -200,9 +189,14 @@ impl<'a> Kernel<'a> {
         self.tier.is_full() || self.method != Method::Auto
     }
 
+    /// Whether a bound keeps the tolerance.
+    pub(super) fn keeps(&self, bound: f64) -> bool {
+        bound <= self.tolerance
+    }
+
     /// Whether a bound keeps the tolerance, or no method could keep it.
     pub(super) fn is_enough(&self, bound: f64, rounding: f64) -> bool {
-        bound <= self.tolerance || rounding > self.tolerance || self.is_at_its_best()
+        self.keeps(bound) || rounding > self.tolerance || self.is_at_its_best()
     }
 
     /// The evaluated components in one direction, from a value of S that is good enough for the tolerance in most
@@ -277,11 +271,15 @@ impl<'a> Kernel<'a> {
         Estimate::within(value, 8.0 * EPSILON)
     }
 
+    /// Whether the facets have 1 − e^{−g} of the energy and the spike the rest.
+    fn shares_with_spike(&self) -> bool {
+        let p = self.scene.parameters();
+        p.model == Model::Unified && p.surface.specular_scale.is_none()
+    }
+
     /// (70), times 1 − e^{-g} where it shares the energy with a spike.
     fn facet_lobe(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
-        let surface = &self.scene.parameters().surface;
-        let shares = self.scene.parameters().model == Model::Unified && surface.specular_scale.is_none();
-        if !shares {
+        if !self.shares_with_spike() {
             let lobe = self.facets?.lobe(geometry, self.shadowing_over_cosines(geometry));
             return Some(self.with_reflectance(lobe, reflectance));
         }
@@ -299,7 +297,7 @@ impl<'a> Kernel<'a> {
             ),
             _ => (self.shadowing_over_cosines(geometry), Scaled::new(share)),
         };
-        // 1 − e^{-g} has no larger relative error than g, 16 ε, and three roundings; the cosine 4 ε.
+        // 1 − e^{-g} has no larger relative error than g, 16 ε, and 4 ε of its own; the cosine 4 ε.
         let lobe = self.facets?.lobe(geometry, over_cosines).times(Estimate::within(share, 28.0 * EPSILON));
         Some(self.with_reflectance(lobe, reflectance))
     }

@@ -1,5 +1,7 @@
 //! The facet lobe of Torrance and Sparrow, (58)-(71). Its companion, the diffuse lobe of (72), is [`super::lambertian`].
 
+pub(super) mod lanes;
+
 use super::estimate::Estimate;
 use super::fresnel::{Energy, Medium, Polarization};
 use super::geometry::Geometry;

@@ -1,9 +1,11 @@
 //! The three components of section 5.1 in absolute units: how spike and lobe share the reflected energy.
 
+use super::numeric::elementary::exp;
 use core::f64::consts::PI;
 
 /// g of (34) at the mirror direction, (4π σ_h cos θ_i/λ)², for σ_h and λ in one unit. Relative error below 8 ε and
 /// twice that of the cosine.
+#[inline(always)]
 pub fn mirror_g(rms_height: f64, wavelength: f64, cos_i: f64) -> f64 {
     let phase = 4.0 * PI * (rms_height / wavelength) * cos_i;
     phase * phase
@@ -14,9 +16,11 @@ pub fn spike_share(g: f64) -> f64 {
     libm::exp(-g)
 }
 
-/// 1 − e^{−g}: the share that the lobe carries, the total integrated scatter. Relative error below 3 ε and that of g.
+/// 1 − e^{−g}: the share that the lobe carries, the total integrated scatter. Relative error below 4 ε and that of g.
+#[inline(always)]
 pub fn lobe_share(g: f64) -> f64 {
-    -libm::expm1(-g)
+    // From 700 on it is 1.
+    -exp(-g.min(700.0)).minus_one()
 }
 
 #[cfg(test)]

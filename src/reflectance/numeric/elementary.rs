@@ -2,6 +2,8 @@
 //! instructions. Only sums, products, quotients, roots and comparisons of doubles, never a fused
 //! multiply-add: every instruction set gives the same bits.
 
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 /// 3·2^51: adding and subtracting it rounds a double of magnitude below 2^51 to the nearest integer,
 /// which is left in the low bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
@@ -47,7 +49,7 @@ impl Exponential {
         self.significand * power_of_two(self.exponent)
     }
 
-    /// e^x − 1 with a relative error below 4 ε, for x from 0 to 700.
+    /// e^x − 1 with a relative error below 4 ε, for x from −700 to 700.
     #[inline(always)]
     pub fn minus_one(self) -> f64 {
         let scale = power_of_two(self.exponent);
@@ -161,6 +163,43 @@ pub fn sin_cos_degrees(angle: f64) -> (f64, f64) {
     (f64::from_bits(a.to_bits() ^ sin_sign) + 0.0, f64::from_bits(b.to_bits() ^ cos_sign) + 0.0)
 }
 
+/// The angle of (x, y) to the x axis in radians, for x and y not negative and not both 0. Relative error below 4 ε.
+#[inline(always)]
+pub fn angle(x: f64, y: f64) -> f64 {
+    const TAN_22_5: f64 = core::f64::consts::SQRT_2 - 1.0;
+    // π/2 = its double + this.
+    const RIGHT_LOW: f64 = 6.123_233_995_736_766e-17;
+    let is_middle = (y > TAN_22_5 * x) & (x > TAN_22_5 * y);
+    let is_steep = y > x;
+    // Turned back by 0°, 45° or 90°, so that |tan| is below tan 22.5°.
+    let (near, far) = if is_steep { (-x, y) } else { (y, x) };
+    let (quarter, low) = if is_steep { (FRAC_PI_2, RIGHT_LOW) } else { (0.0, 0.0) };
+    let opposite = if is_middle { y - x } else { near };
+    let adjacent = if is_middle { x + y } else { far };
+    let turned = if is_middle { FRAC_PI_4 } else { quarter };
+    let low = if is_middle { 0.5 * RIGHT_LOW } else { low };
+    let z = opposite / adjacent;
+    let w = z * z;
+    let v = w * w;
+    // arctan's series, its negative and its positive terms apart; the first left out, w^21/43, is below 2e-18.
+    let negative = 1.0 / 3.0
+        + v * (1.0 / 7.0
+            + v * (1.0 / 11.0
+                + v * (1.0 / 15.0
+                    + v * (1.0 / 19.0
+                        + v * (1.0 / 23.0
+                            + v * (1.0 / 27.0 + v * (1.0 / 31.0 + v * (1.0 / 35.0 + v * (1.0 / 39.0)))))))));
+    let positive = 1.0 / 5.0
+        + v * (1.0 / 9.0
+            + v * (1.0 / 13.0
+                + v * (1.0 / 17.0
+                    + v * (1.0 / 21.0
+                        + v * (1.0 / 25.0
+                            + v * (1.0 / 29.0 + v * (1.0 / 33.0 + v * (1.0 / 37.0 + v * (1.0 / 41.0)))))))));
+    let series = w * (w * positive - negative);
+    turned + (z + (z * series + low))
+}
+
 /// √(a² + b²) for magnitudes up to 1e150. Relative error 2 ε, by the four roundings that it has.
 #[inline(always)]
 pub fn hypotenuse(a: f64, b: f64) -> f64 {
@@ -185,7 +224,7 @@ pub fn binary_exponent(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{binary_exponent, exp, hypotenuse, ln, ln_1p_roughly, scale, sin_cos_degrees};
+    use super::{angle, binary_exponent, exp, hypotenuse, ln, ln_1p_roughly, scale, sin_cos_degrees};
     use crate::reflectance::numeric::EPSILON;
 
     /// libm's functions are good to an ulp, 2 ε, which adds to what is allowed here.
@@ -203,7 +242,9 @@ mod tests {
             // Measured against 140 bits: 1.36 ε, expm1 2.2 ε, ln 1.5 ε.
             near(exp(x).value(), libm::exp(x), 2.0, x);
             if x > 0.0 {
-                near(exp(x * 0.01).minus_one(), libm::expm1(x * 0.01), 4.0, x);
+                for x in [x * 0.01, -x * 0.01, -x.min(700.0)] {
+                    near(exp(x).minus_one(), libm::expm1(x), 4.0, x);
+                }
                 near(ln(x), libm::log(x), 3.0, x);
                 assert!((ln_1p_roughly(x) / libm::log1p(x) - 1.0).abs() < 1e-3, "{x}");
             }
@@ -223,6 +264,23 @@ mod tests {
         for k in [-1074, -1030, -1022, -600, 0, 600, 1023] {
             assert_eq!(scale(1.0, f64::from(k)), 2f64.powi(k / 2) * 2f64.powi(k - k / 2), "{k}");
         }
+    }
+
+    #[test]
+    fn angles_of_the_quadrant() {
+        for step in 0..=90_000 {
+            let degrees = f64::from(step) * 1e-3;
+            let (y, x) = sin_cos_degrees(degrees);
+            for size in [1.0, 1e-17, 1.7] {
+                // Measured against 200 bits: 2.4 ε.
+                near(angle(size * x, size * y), libm::atan2(size * y, size * x), 4.0, degrees);
+            }
+            let small = libm::exp10(-degrees);
+            near(angle(1.9, small), libm::atan2(small, 1.9), 4.0, small);
+        }
+        assert_eq!(angle(0.0, 1.0), core::f64::consts::FRAC_PI_2);
+        assert_eq!(angle(1.0, 0.0), 0.0);
+        assert!(angle(0.0, 0.0).is_nan());
     }
 
     #[test]
