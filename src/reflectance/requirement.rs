@@ -131,7 +131,7 @@ fn negligible(scene: &Scene, component: Component) -> &'static str {
 }
 
 /// The region of some directions.
-fn region(directions: &Directions, range: &Range<usize>) -> Region {
+pub(super) fn region(directions: &Directions, range: &Range<usize>) -> Region {
     let direction = (range.len() == 1).then(|| directions.geometry(range.start));
     Region::new(&directions.extents(range.clone()), direction)
 }
