@@ -8,12 +8,13 @@ use super::evaluate::EvaluatedBy;
 use super::fresnel::Medium;
 use super::numeric::lobe_series::Method;
 use super::scene::{Component, Model, Scene};
-use super::shadowing::Shadowing;
 
 /// Angles to geometry, the sum of the components and its bound, direction by direction
 const DIRECTION: f64 = 35.0;
-/// The same in vector lanes, the factors of the lobe with it
+/// The same in vector lanes, the factors of a lobe with it
 const LANES_ALONE: f64 = 10.0;
+/// F′ with its error in lanes
+const LANES_FRESNEL: f64 = 6.0;
 /// (57)
 const DIFFUSE_LOBE: f64 = 10.0;
 /// (70) without F′
@@ -75,14 +76,13 @@ impl Lobe {
 /// The cost of these components in one direction.
 pub(super) fn direction(scene: &Scene, components: &[Component], lobe: Option<Lobe>) -> f64 {
     let p = scene.parameters();
-    if let (Some(lobe), [Component::SpecularLobe]) = (lobe, components)
-        && p.accuracy.method == Method::Auto
-        && p.surface.medium == Medium::PerfectConductor
-        && scene.shadowing() == Shadowing::None
-    {
-        return LANES_ALONE + lobe.cost(Method::Auto);
-    }
     let height_lobe = p.model == Model::BeckmannSpizzichino;
+    let in_lanes = !components.contains(&Component::SpecularSpike)
+        && (!height_lobe || lobe.is_some() && p.accuracy.method == Method::Auto);
+    if in_lanes {
+        let of_medium = reflectance(scene, components, LANES_FRESNEL);
+        return LANES_ALONE + of_medium + lobe.map_or(0.0, |lobe| lobe.cost(Method::Auto));
+    }
     let parts: f64 = components
         .iter()
         .map(|component| match component {
@@ -94,7 +94,7 @@ pub(super) fn direction(scene: &Scene, components: &[Component], lobe: Option<Lo
             Component::SpecularLobe => FACET_LOBE,
         })
         .sum();
-    DIRECTION + reflectance(scene, components) + parts
+    DIRECTION + reflectance(scene, components, FRESNEL) + parts
 }
 
 /// The cost of every component in one direction, the lobe of (47) by its sum.
@@ -107,7 +107,7 @@ pub(super) fn full(scene: &Scene, components: &[Component], lobe: Option<Lobe>) 
 }
 
 /// F′, once for all specular components.
-fn reflectance(scene: &Scene, components: &[Component]) -> f64 {
+fn reflectance(scene: &Scene, components: &[Component], of_index: f64) -> f64 {
     let is_specular = components.iter().any(|&component| component != Component::DiffuseLobe);
-    if is_specular && scene.parameters().surface.medium != Medium::PerfectConductor { FRESNEL } else { 0.0 }
+    if is_specular && scene.parameters().surface.medium != Medium::PerfectConductor { of_index } else { 0.0 }
 }
