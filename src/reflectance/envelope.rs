@@ -239,11 +239,10 @@ fn sum(terms: &[Span]) -> Span {
 
 #[cfg(test)]
 mod tests {
-    use super::{RelativeRoughness, STEEPEST, lobe_series};
+    use super::{Region, RelativeRoughness, STEEPEST, lobe_series};
     use crate::reflectance::directions::{Angles, Directions};
     use crate::reflectance::numeric::lobe_series::{Method, evaluate};
     use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
-    use crate::reflectance::requirement;
 
     #[test]
     fn the_series_falls_no_faster_than_assumed() {
@@ -279,7 +278,8 @@ mod tests {
                 let longest = 1.0 / (geometry.horizontal + 1e-16 * geometry.cos_sum);
                 for correlation_length in [0.3 * longest, longest, 6.0 * longest] {
                     let roughness = RelativeRoughness { height, correlation_length };
-                    let bounds = lobe_series(roughness, &requirement::region(&directions, &(0..1)));
+                    let region = Region::new(&directions.extents(0..1), Some(geometry));
+                    let bounds = lobe_series(roughness, &region);
                     let (g, x) = (roughness.g(&geometry), roughness.x(&geometry));
                     let exact = evaluate(Method::Series, g, x).estimate.value.ln();
                     assert!(
