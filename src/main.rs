@@ -56,10 +56,14 @@ async fn listen(config: &Config) -> ExitCode {
         Ok(address) => address,
         Err(error) => return fail(&format!("cannot tell the address of {}: {error}", config.listen)),
     };
+    let signals = match http::StopSignals::catch() {
+        Ok(signals) => signals,
+        Err(error) => return fail(&format!("cannot catch signals: {error}")),
+    };
     if print(&http::greeting(address)) != ExitCode::SUCCESS {
         return ExitCode::FAILURE;
     }
-    if http::serve(listener, config).await { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if http::serve(listener, signals, config).await { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Writes to standard output; a closed pipe is an exit code, not a panic.

@@ -15,7 +15,7 @@ mod serve;
 mod track;
 
 pub use openapi::openapi_json;
-pub use serve::serve;
+pub use serve::{StopSignals, serve};
 
 use crate::config::Config;
 use axum::Router;

@@ -18,6 +18,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
+use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::sync::watch;
 
 /// Largest request head: ample for the longest query that makes sense.
@@ -27,8 +28,8 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 /// Once the service stops: how long a connection may be silent before it counts as idle.
 const QUIET: Duration = Duration::from_secs(1);
 
-/// Serves until SIGTERM or Ctrl-C, then lets the requests in flight finish. Says whether all did.
-pub async fn serve(listener: TcpListener, config: &Config) -> bool {
+/// Serves until one of the signals, then lets the requests in flight finish. Says whether all did.
+pub async fn serve(listener: TcpListener, mut signals: StopSignals, config: &Config) -> bool {
     let in_flight = Arc::new(AtomicUsize::new(0));
     let (stopping, stopped) = watch::channel(false);
     let server = Arc::new(Server {
@@ -39,7 +40,7 @@ pub async fn serve(listener: TcpListener, config: &Config) -> bool {
         in_flight,
     });
     let open = GracefulShutdown::new();
-    let mut stop = std::pin::pin!(stop_signal());
+    let mut stop = std::pin::pin!(signals.received());
     loop {
         tokio::select! {
             accepted = listener.accept() => match accepted {
@@ -169,20 +170,21 @@ async fn quiet_after(mut stopped: watch::Receiver<bool>) {
     tokio::time::sleep(QUIET).await;
 }
 
-/// Resolves at SIGTERM or Ctrl-C. A signal that cannot be listened to never resolves.
-async fn stop_signal() {
-    let interrupt = async {
-        if tokio::signal::ctrl_c().await.is_err() {
-            std::future::pending::<()>().await;
-        }
-    };
-    let terminate = async {
-        match tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate()) {
-            Ok(mut signal) => {
-                signal.recv().await;
-            }
-            Err(_) => std::future::pending().await,
-        }
-    };
-    tokio::select! { () = interrupt => {}, () = terminate => {} }
+/// SIGTERM and Ctrl-C, caught from when this is made: before the service says that it listens, so that it can be told
+/// to stop from then on.
+pub struct StopSignals {
+    interrupt: Signal,
+    terminate: Signal,
+}
+
+impl StopSignals {
+    /// Within a runtime.
+    pub fn catch() -> std::io::Result<Self> {
+        Ok(Self { interrupt: signal(SignalKind::interrupt())?, terminate: signal(SignalKind::terminate())? })
+    }
+
+    /// Resolves at the first of either.
+    async fn received(&mut self) {
+        tokio::select! { _ = self.interrupt.recv() => {}, _ = self.terminate.recv() => {} }
+    }
 }
