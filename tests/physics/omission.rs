@@ -76,10 +76,13 @@ fn the_faintest_component_is_not_taken_for_nothing() {
     .unwrap();
     let smallest = f64::from_bits(1);
     let mut random = Random::new(3);
-    // The diffuse lobe is albedo cos θ_i/π; the facet lobe e^{-α²/2σ²} of α = 25°: e^{-31250} or e^{-3472}.
-    for (slope, albedo, scale) in
-        [(0.1, smallest, 1.0), (0.1, 3.0 * smallest, smallest), (0.3, 0.0, smallest)]
-    {
+    // The diffuse lobe is albedo cos θ_i/π; the facet lobe e^{-α²/2σ²} of α = 25°: e^{-31250}, e^{-3472} or e^{-0.09}.
+    for (slope, albedo, scale) in [
+        (0.1, smallest, 1.0),
+        (0.1, 3.0 * smallest, smallest),
+        (0.3, 0.0, smallest),
+        (60.0, smallest, smallest),
+    ] {
         let mut parameters = scene(&mut random);
         parameters.model = Model::TorranceSparrow;
         parameters.components = Components::Auto;
