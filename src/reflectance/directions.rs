@@ -24,6 +24,18 @@ impl<A: Copy> Angles<A> {
         }
     }
 
+    /// One angle where all are the same: however it was said, it is worked out once, and to the same bits.
+    fn folded(self, get: impl Fn(A) -> f64) -> Self {
+        match self {
+            Self::Each(angles)
+                if angles.windows(2).all(|pair| get(pair[0]).to_bits() == get(pair[1]).to_bits()) =>
+            {
+                Self::One(angles[0])
+            }
+            other => other,
+        }
+    }
+
     /// Least and largest of some of them.
     fn extent(&self, range: Range<usize>, get: impl Fn(A) -> f64) -> [f64; 2] {
         match self {
@@ -162,7 +174,22 @@ impl Directions {
             return Err(errors);
         }
         let count = lengths.into_iter().flatten().next().unwrap_or(1);
-        Ok(Self { theta_i, theta_r, phi_r, count })
+        Ok(Self::folded(theta_i, theta_r, phi_r, count))
+    }
+
+    /// `count` directions, at least one.
+    fn folded(
+        theta_i: Angles<SourceZenith>,
+        theta_r: Angles<ViewerZenith>,
+        phi_r: Angles<Azimuth>,
+        count: usize,
+    ) -> Self {
+        Self {
+            theta_i: theta_i.folded(SourceZenith::get),
+            theta_r: theta_r.folded(ViewerZenith::get),
+            phi_r: phi_r.folded(Azimuth::get),
+            count,
+        }
     }
 
     /// What is wrong with the lengths of the arrays of θ_i, θ_r and φ_r; None for one that is no array, or whose
@@ -202,7 +229,7 @@ impl Directions {
         phi_r: Angles<Azimuth>,
     ) -> Self {
         let count = theta_i.len();
-        Self { theta_i: Angles::Each(theta_i), theta_r: Angles::Each(theta_r), phi_r, count }
+        Self::folded(Angles::Each(theta_i), Angles::Each(theta_r), phi_r, count)
     }
 
     /// N.
@@ -256,5 +283,35 @@ impl Directions {
         self.theta_i.lanes(first, &mut lanes.theta_i);
         self.theta_r.lanes(first, &mut lanes.theta_r);
         self.phi_r.lanes(first, &mut lanes.phi_r);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Angles, Directions};
+    use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
+
+    #[test]
+    fn an_angle_said_often_is_the_angle_said_once() {
+        let source = SourceZenith::new(43.4).unwrap();
+        let viewers: Vec<_> = [-44.3, 12.0, 60.5].map(|angle| ViewerZenith::new(angle).unwrap()).to_vec();
+        let azimuth = Azimuth::new(0.0).unwrap();
+        let once = Directions::new(Angles::One(source), Angles::Each(viewers.clone()), Angles::One(azimuth));
+        let often = Directions::new(
+            Angles::Each(vec![source; 3]),
+            Angles::Each(viewers.clone()),
+            Angles::Each(vec![azimuth; 3]),
+        );
+        let curve = Directions::of_curve(vec![source; 3], viewers.clone(), Angles::One(azimuth));
+        let (once, often) = (once.unwrap(), often.unwrap());
+        assert_eq!(once.count(), 3);
+        for other in [&often, &curve] {
+            assert_eq!(once.extents(0..3), other.extents(0..3));
+            assert_eq!(&once, other);
+        }
+        // 0 and −0 are not the same azimuth for all that is told of them.
+        let zeros = Angles::Each([0.0, -0.0].map(|angle| Azimuth::new(angle).unwrap()).to_vec());
+        let two = Directions::new(Angles::One(source), Angles::One(viewers[0]), zeros.clone()).unwrap();
+        assert_eq!((two.count(), &two.phi_r), (2, &zeros));
     }
 }

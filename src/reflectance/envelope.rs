@@ -13,7 +13,7 @@ use super::scene::{Component, Model, Scene};
 use super::shadowing::Shadowing;
 use super::unified;
 use super::view::View;
-use core::f64::consts::{FRAC_1_PI, FRAC_PI_4, PI};
+use core::f64::consts::{FRAC_PI_4, LN_2, PI};
 
 /// A component's logarithm is −∞ here: it is exactly 0.
 pub(super) const NOTHING: Span = Span { least: f64::NEG_INFINITY, most: f64::NEG_INFINITY };
@@ -57,7 +57,7 @@ impl Envelopes {
             without_fresnel: !diffuse || surface.medium == Medium::PerfectConductor,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
-            facets: scene.facets.map(|facets| (facets.sigma_alpha, libm::log(0.25 * facets.scale))),
+            facets: scene.facets.map(|facets| (facets.sigma_alpha, libm::log(facets.scale) - 2.0 * LN_2)),
             shares: p.model == Model::Unified && surface.specular_scale.is_none(),
         }
     }
@@ -69,7 +69,8 @@ impl Envelopes {
         }
         let bounds = match component {
             Component::DiffuseLobe => {
-                sum(&[constant(libm::log(self.diffuse_albedo * FRAC_1_PI)), region.cos_i.ln()])
+                // A product would round a subnormal albedo, even to 0.
+                sum(&[constant(libm::log(self.diffuse_albedo)), constant(-libm::log(PI)), region.cos_i.ln()])
             }
             Component::SpecularLobe if self.model == Model::BeckmannSpizzichino => self.height_lobe(region),
             Component::SpecularLobe => self.facet_lobe(region),

@@ -1,8 +1,12 @@
 //! A component that was left out changes no total by more than the bound stated.
 
 use crate::random::{Random, directions, scene, whole};
+use reflectance::reflectance::directions::{Angles, Directions};
 use reflectance::reflectance::evaluate::{Evaluation, Output, Quantity, evaluate};
-use reflectance::reflectance::scene::Scene;
+use reflectance::reflectance::quantity::{
+    Azimuth, FacetSlope, Fraction, Quantity as _, SourceZenith, SpecularScale, ViewerZenith,
+};
+use reflectance::reflectance::scene::{Components, Model, Scene};
 
 /// What differs by more than both bounds, the two answers' logarithms compared where the values underflow.
 fn disagreement(part: &Evaluation, whole: &Evaluation) -> Option<String> {
@@ -60,4 +64,35 @@ fn what_is_left_out_changes_no_total_by_more_than_its_bound() {
     }
     // The test has something to say on each of them.
     assert!(omitted.iter().all(|&count| count > 200) && together > 200, "{omitted:?} {together}");
+}
+
+#[test]
+fn the_faintest_component_is_not_taken_for_nothing() {
+    let directions = Directions::new(
+        Angles::One(SourceZenith::new(10.0).unwrap()),
+        Angles::One(ViewerZenith::new(60.0).unwrap()),
+        Angles::One(Azimuth::new(0.0).unwrap()),
+    )
+    .unwrap();
+    let smallest = f64::from_bits(1);
+    let mut random = Random::new(3);
+    // The diffuse lobe is albedo cos θ_i/π; the facet lobe e^{-α²/2σ²} of α = 25°: e^{-31250}, e^{-3472} or e^{-0.09}.
+    for (slope, albedo, scale) in [
+        (0.1, smallest, 1.0),
+        (0.1, 3.0 * smallest, smallest),
+        (0.3, 0.0, smallest),
+        (60.0, smallest, smallest),
+    ] {
+        let mut parameters = scene(&mut random);
+        parameters.model = Model::TorranceSparrow;
+        parameters.components = Components::Auto;
+        parameters.surface.facet_slope = Some(FacetSlope::new(slope).unwrap());
+        parameters.surface.diffuse_albedo = Fraction::new(albedo).unwrap();
+        parameters.surface.specular_scale = Some(SpecularScale::new(scale).unwrap());
+        let output = Output { log10: true, per_direction: false };
+        let [part, all] = [Scene::new(parameters.clone()).unwrap(), whole(&parameters)]
+            .map(|scene| evaluate(&scene, &directions, Quantity::Radiance, output));
+        assert_eq!(part.log10_total, all.log10_total, "{:?}", part.omitted);
+        assert!(part.log10_total.unwrap()[0].is_finite());
+    }
 }
