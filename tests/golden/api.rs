@@ -3,14 +3,13 @@
 use crate::bs::mixed;
 use crate::condition;
 use crate::family::{Line, Measured};
-use crate::measure::{EPSILON, difference, exceeds};
+use crate::measure::{exceeds, relative_error};
 use crate::server::Server;
-use crate::table::{Exact, Row, Table};
+use crate::table::{Row, Table};
 use reflectance::reflectance::beckmann_spizzichino::RelativeRoughness;
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
 use serde_json::{Map, Value, json};
-use std::f64::consts::LN_10;
 use std::sync::LazyLock;
 
 pub(crate) static MEASURED: LazyLock<Measured> = LazyLock::new(|| {
@@ -165,26 +164,6 @@ fn bound_holds(line: &Line<'_>, method: &str, answer: &Value, total: &'static st
     if exceeds(error, bound) {
         line.fail(total, &format!("by {method} is off by {error:e}, stated {bound:e}"));
     }
-}
-
-/// |computed/exact − 1|, by the logarithms where the doubles run out. A logarithm shows no less than its own
-/// rounding and the oracle's.
-fn relative_error(value: f64, log10: f64, exact: &Exact) -> f64 {
-    if exact.log.is_none() && value.abs() >= f64::MIN_POSITIVE {
-        return (difference(value, exact) / exact.nearest).abs();
-    }
-    let off = (log10 - exact.log10()).abs() - 2.0 * EPSILON * (1.0 + exact.log10().abs());
-    if off <= 0.0 { 0.0 } else { (off.copysign(log10 - exact.log10()) * LN_10).exp_m1().abs() }
-}
-
-#[test]
-fn errors_of_totals_are_seen_by_value_and_by_logarithm() {
-    assert_eq!(relative_error(1.5, 1.5f64.log10(), &Exact::of(1.0)), 0.5);
-    let underflow = Exact { log: Some(-1000.0), ..Exact::of(0.0) };
-    assert_eq!(relative_error(0.0, -1000.0, &underflow), 0.0);
-    assert!((relative_error(0.0, -999.0, &underflow) - 9.0).abs() < 1e-9);
-    assert!((relative_error(0.0, -1001.0, &underflow) - 0.9).abs() < 1e-9);
-    assert_eq!(relative_error(0.0, f64::NEG_INFINITY, &underflow), 1.0);
 }
 
 #[test]

@@ -55,6 +55,20 @@ pub(crate) fn absolute_units(computed: f64, exact: &Exact, scale: f64, step: f64
     if error <= 0.0 { 0.0 } else { error / (EPSILON * scale) }
 }
 
+/// |computed/exact − 1|, by the logarithms where the doubles run out. A logarithm shows no less than its own
+/// rounding and the oracle's.
+pub(crate) fn relative_error(value: f64, log10: f64, exact: &Exact) -> f64 {
+    if exact.log.is_none() && value.abs() >= f64::MIN_POSITIVE {
+        return (difference(value, exact) / exact.nearest).abs();
+    }
+    let off = (log10 - exact.log10()).abs() - 2.0 * EPSILON * (1.0 + exact.log10().abs());
+    if off <= 0.0 {
+        0.0
+    } else {
+        (off.copysign(log10 - exact.log10()) * core::f64::consts::LN_10).exp_m1().abs()
+    }
+}
+
 #[test]
 fn hundred_units_off_measures_hundred_units() {
     for value in [1.0, 0.1, 3.7e-200, -2.5e300] {
@@ -122,4 +136,14 @@ fn a_difference_is_judged_by_the_size_of_its_terms() {
     assert!((absolute_units(1e-12 + 10.0 * EPSILON, &exact, 1.0, 0.0) - 10.0).abs() < 1e-3);
     assert_eq!(absolute_units(1e-12, &exact, 0.0, 0.0), 0.0);
     assert_eq!(absolute_units(2e-12, &exact, 0.0, 0.0), f64::INFINITY);
+}
+
+#[test]
+fn errors_of_totals_are_seen_by_value_and_by_logarithm() {
+    assert_eq!(relative_error(1.5, 1.5f64.log10(), &Exact::of(1.0)), 0.5);
+    let underflow = Exact { log: Some(-1000.0), ..Exact::of(0.0) };
+    assert_eq!(relative_error(0.0, -1000.0, &underflow), 0.0);
+    assert!((relative_error(0.0, -999.0, &underflow) - 9.0).abs() < 1e-9);
+    assert!((relative_error(0.0, -1001.0, &underflow) - 0.9).abs() < 1e-9);
+    assert_eq!(relative_error(0.0, f64::NEG_INFINITY, &underflow), 1.0);
 }
