@@ -4,6 +4,7 @@
 
 #[path = "../tests/physics/realistic.rs"]
 mod realistic;
+mod unit;
 
 use rayon::ThreadPoolBuilder;
 use realistic::{SCENES, in_range};
@@ -14,6 +15,7 @@ use reflectance::reflectance::quantity::Quantity;
 use reflectance::reflectance::scene::{Component, Components, Scene};
 use std::hint::black_box;
 use std::time::Instant;
+use unit::wide_exp;
 
 const DIRECTIONS: usize = 20_000;
 const ROUNDS: usize = 9;
@@ -24,18 +26,7 @@ fn main() {
 }
 
 fn report() {
-    let exp = least(|| {
-        let mut values = [0.0f64; 1024];
-        let start = Instant::now();
-        for _ in 0..100 {
-            for (place, four) in values.chunks_exact_mut(4).enumerate() {
-                let argument = -0.01 * place as f64;
-                four.copy_from_slice(&wide::f64x4::from(black_box(argument)).exp().to_array());
-            }
-            black_box(&mut values);
-        }
-        start.elapsed().as_secs_f64() * 1e9 / (100.0 * 1024.0)
-    });
+    let exp = wide_exp();
     println!("1 = wide::f64x4::exp, {exp:.2} ns an element");
     let paired = Directions::new(
         Angles::Each(between(0.0, 80.0)),

@@ -3,6 +3,8 @@
 //! `cargo bench --bench speed`. Numbers are ratios to one vectorised exp() of the `wide` crate, measured
 //! in the same round; each is the median of the rounds.
 
+mod unit;
+
 use rayon::ThreadPoolBuilder;
 use reflectance::reflectance::directions::{Angles, Directions};
 use reflectance::reflectance::evaluate::{EvaluatedBy, Output, Quantity, evaluate};
@@ -16,6 +18,7 @@ use reflectance::reflectance::scene::{
 };
 use std::hint::black_box;
 use std::time::Instant;
+use unit::wide_exp;
 
 const DIRECTIONS: usize = 100_000;
 const ROUNDS: usize = 7;
@@ -147,27 +150,6 @@ fn whole(scene: &Scene, directions: &Directions) -> f64 {
         start.elapsed().as_secs_f64() * 1e9 / DIRECTIONS as f64
     };
     least(std::iter::repeat_with(time).take(repeats))
-}
-
-/// ns of one element of `wide`'s exp as this program was compiled.
-fn wide_exp() -> f64 {
-    let arguments: Vec<[f64; 4]> = random(7, -20.0, 0.0)
-        .chunks_exact(4)
-        .map(|four| [four[0], four[1], four[2], four[3]])
-        .take(256)
-        .collect();
-    let mut results = vec![[0.0; 4]; arguments.len()];
-    let time = || {
-        let start = Instant::now();
-        for _ in 0..200 {
-            for (result, argument) in results.iter_mut().zip(black_box(&arguments)) {
-                *result = wide::f64x4::from(*argument).exp().to_array();
-            }
-            black_box(&mut results);
-        }
-        start.elapsed().as_secs_f64() * 1e9 / (200 * 4 * arguments.len()) as f64
-    };
-    least(std::iter::repeat_with(time).take(9))
 }
 
 /// As the authors evaluated (47): e^{-g} Σ_{m=1}^{100} g^m/(m! m) e^{-x/m}, one direction after the other.

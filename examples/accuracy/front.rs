@@ -2,6 +2,7 @@
 
 use crate::page::{Column, Table, rounded_up};
 use crate::scenes::{accuracy, directions, finest, lobe};
+use crate::unit::wide_exp;
 use reflectance::reflectance::beckmann_spizzichino::RelativeRoughness;
 use reflectance::reflectance::directions::Directions;
 use reflectance::reflectance::evaluate::{Evaluation, Output, Quantity, evaluate};
@@ -10,7 +11,6 @@ use reflectance::reflectance::quantity::Tolerance;
 use reflectance::reflectance::scene::Accuracy;
 use std::hint::black_box;
 use std::time::Instant;
-use wide::f64x4;
 
 /// Where μ lies in each band.
 const BANDS: [(f64, f64); 6] =
@@ -55,7 +55,7 @@ fn power(value: f64) -> String {
 
 /// All bands; the times only if `timed`.
 pub(crate) fn measured(timed: bool) -> Vec<Band> {
-    let unit = if timed { exponential() } else { 1.0 };
+    let unit = if timed { 1e-9 * wide_exp() } else { 1.0 };
     BANDS.map(|(from, to)| band(from, to, timed.then_some(unit))).into()
 }
 
@@ -134,24 +134,6 @@ fn times(ways: &[Accuracy], unit: f64, mut run: impl FnMut(Accuracy)) -> Vec<f64
     least.into_iter().map(|least| least / DIRECTIONS as f64 / unit).collect()
 }
 
-/// Seconds of one exponential: `wide`'s, four at once, over an array in the nearest cache.
-fn exponential() -> f64 {
-    let arguments: Vec<f64x4> = (0..DIRECTIONS / 4)
-        .map(|i| f64x4::new([0.0, 0.25, 0.5, 0.75].map(|part| -0.01 * (i as f64 + part))))
-        .collect();
-    let mut least = f64::INFINITY;
-    for _ in 0..200 * REPEATS {
-        let started = Instant::now();
-        let mut sum = f64x4::ZERO;
-        for argument in black_box(&arguments) {
-            sum += argument.exp();
-        }
-        black_box(sum);
-        least = least.min(started.elapsed().as_secs_f64());
-    }
-    least / DIRECTIONS as f64
-}
-
 /// What the times were taken on, as far as it says of itself.
 pub(crate) fn machine() -> String {
     let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -160,7 +142,7 @@ pub(crate) fn machine() -> String {
         "The times are those of one thread of a machine that calls itself {} ({}), where one exp() took {:.1} ns.\n",
         model.unwrap_or("nothing"),
         std::env::consts::ARCH,
-        1e9 * exponential()
+        wide_exp()
     )
 }
 

@@ -12,6 +12,8 @@ mod held;
 mod page;
 mod plane;
 mod scenes;
+#[path = "../../benches/unit/mod.rs"]
+mod unit;
 
 use page::{Page, Table};
 use std::error::Error;

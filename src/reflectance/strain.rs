@@ -34,7 +34,8 @@ pub(super) fn warnings(
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if requirement::lacks_sensor(scene) {
-        let share = omitted.last().and_then(|spike| spike.bound);
+        let spike = omitted.iter().find(|omitted| omitted.component == Component::SpecularSpike);
+        let share = spike.and_then(|spike| spike.bound);
         if share.is_none_or(|share| share > scene.parameters().accuracy.relative_tolerance.get()) {
             warnings.push(Warning::of_scene(WarningCode::SpikeWithoutSensor, share, None));
         }

@@ -7,9 +7,9 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 /// 3·2^51: adding and subtracting it rounds a double of magnitude below 2^51 to the nearest integer,
 /// which is left in the low bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
-/// ln 2 in two parts, the first with 21 trailing zero bits.
-const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
-const LN2_LOW: f64 = 1.908_214_929_270_587_8e-10;
+/// ln 2 in two parts, the first with 21 trailing zero bits: its products with integers below 2^21 are exact.
+pub(super) const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
+pub(super) const LN2_LOW: f64 = 1.908_214_929_270_587_8e-10;
 
 /// e^x = `significand` · 2^`exponent`.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,6 @@
 //! A number with an exponent that cannot run out: what lets the models pass through 1e-85351647.
 
+use super::elementary::{LN2_HIGH, LN2_LOW};
 use core::ops::{Add, Div, Mul};
 
 /// `significand · 2^exponent`, the significand 0, infinite, NaN or of magnitude in [1, 2).
@@ -14,9 +15,6 @@ pub struct Scaled {
 
 const EXPONENT_BITS: u64 = 0x7ff0_0000_0000_0000;
 const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
-/// ln 2 in two parts, the first with 21 trailing zero bits: its products with integers below 2^21 are exact.
-const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
-const LN2_LOW: f64 = 1.908_214_929_270_587_8e-10;
 /// log10(2) rounded to 32 bits, and the rest.
 const LOG10_2_HIGH: f64 = f64::from_bits(0x3fd3_4413_5080_0000);
 const LOG10_2_LOW: f64 = 1.145_110_089_802_183_8e-10;
