@@ -38,10 +38,10 @@ fn serve(config: &Config) -> ExitCode {
 
 async fn listen(config: &Config) -> ExitCode {
     let logs = tracing_subscriber::fmt()
-        .with_max_level(config.log_level)
+        .with_max_level(config.telemetry.log_level)
         .with_ansi(std::io::stderr().is_terminal())
         .with_writer(std::io::stderr);
-    match config.log_format {
+    match config.telemetry.log_format {
         LogFormat::Human => logs.with_target(false).init(),
         LogFormat::Json => logs.json().flatten_event(true).with_target(false).init(),
     }

@@ -1,6 +1,6 @@
 //! The JSON body of a request: checked head first, then read, then parsed.
 
-use super::Limits;
+use super::app::{App, Limits};
 use super::compute;
 use super::input::node;
 use super::input::reader::Reader;
@@ -23,15 +23,16 @@ const DROPPED_AT_MOST: u64 = 4;
 /// A value read from a JSON body.
 pub(super) struct JsonBody<T>(pub(super) T);
 
-impl<T: Wire + Send + 'static> FromRequest<Limits> for JsonBody<T> {
+impl<T: Wire + Send + 'static> FromRequest<App> for JsonBody<T> {
     type Rejection = Problem;
 
-    async fn from_request(request: Request, limits: &Limits) -> Result<Self, Problem> {
+    async fn from_request(request: Request, app: &App) -> Result<Self, Problem> {
+        let limits = app.limits();
         check_content_type(request.headers())?;
         let (mut parts, body) = request.into_parts();
-        let Ok(deadline) = Deadline::from_request_parts(&mut parts, limits).await;
+        let Ok(deadline) = Deadline::from_request_parts(&mut parts, app).await;
         let request = Request::from_parts(parts, body);
-        let read = tokio::time::timeout_at(deadline.0, bytes(request, *limits));
+        let read = tokio::time::timeout_at(deadline.0, bytes(request, limits));
         let bytes = read.await.unwrap_or_else(|_| {
             let limit = limits.request_time.as_secs_f64();
             Err(Problem::new(Kind::RequestTimeout, format!("the body did not arrive within {limit} s")))
@@ -69,7 +70,7 @@ fn check_content_type(headers: &HeaderMap) -> Result<(), Problem> {
 /// Of a longer one some more is read and dropped: a client that sends before it listens would
 /// otherwise find its connection reset instead of an answer. One that waits for `100 Continue` is
 /// told at once.
-async fn bytes(request: Request, limits: Limits) -> Result<Bytes, Problem> {
+async fn bytes(request: Request, limits: &Limits) -> Result<Bytes, Problem> {
     let limit = limits.body_bytes;
     let too_large = || Problem::new(Kind::ContentTooLarge, format!("the limit of a body is {limit} bytes"));
     let announced = request.body().size_hint().lower();

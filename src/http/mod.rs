@@ -1,6 +1,7 @@
 //! The service around the core: HTTP, JSON and nothing of the models.
 
 mod api;
+mod app;
 mod body;
 mod compute;
 mod connection;
@@ -18,28 +19,21 @@ pub use openapi::openapi_json;
 pub use serve::{StopSignals, serve};
 
 use crate::config::Config;
+use app::App;
 use axum::Router;
 use axum::middleware::from_fn_with_state;
 use std::net::SocketAddr;
-use std::time::Duration;
 use tower_http::catch_panic::CatchPanicLayer;
-
-/// What every handler may need to know.
-#[derive(Clone, Copy, Debug)]
-struct Limits {
-    body_bytes: u64,
-    request_time: Duration,
-}
 
 /// The whole service as one `tower` service.
 pub fn router(config: &Config) -> Router {
-    let limits = Limits { body_bytes: config.body_limit_bytes, request_time: config.request_timeout_seconds };
+    let app = App::new(config);
     // As a service of its own: a layer on the routes themselves would not see the `Allow` that axum adds
     // outside of them.
     Router::new()
-        .fallback_service(routes::routes(limits))
+        .fallback_service(routes::routes(app.clone()))
         .layer(CatchPanicLayer::custom(track::on_panic))
-        .layer(from_fn_with_state(limits, track::track))
+        .layer(from_fn_with_state(app, track::track))
 }
 
 /// What the program says when it is ready.

@@ -28,8 +28,12 @@ pub(crate) enum Kind {
     ContentTooLarge,
     UnsupportedMediaType,
     InvalidRequest,
+    Unauthorized,
+    RateLimited,
     Internal,
     TooSlow,
+    Overloaded,
+    CpuTime,
 }
 
 impl Kind {
@@ -63,6 +67,18 @@ impl Kind {
             Self::InvalidRequest => {
                 ("invalid-request", StatusCode::UNPROCESSABLE_ENTITY, "The request has invalid fields")
             }
+            Self::Unauthorized => ("unauthorized", StatusCode::UNAUTHORIZED, "A key is needed"),
+            Self::RateLimited => {
+                ("rate-limited", StatusCode::TOO_MANY_REQUESTS, "The client asked too often")
+            }
+            Self::Overloaded => {
+                ("overloaded", StatusCode::SERVICE_UNAVAILABLE, "The service has as much work as it takes on")
+            }
+            Self::CpuTime => (
+                "cpu-time-exceeded",
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "The answer takes more processor time than a request may",
+            ),
             Self::Internal => ("internal-error", StatusCode::INTERNAL_SERVER_ERROR, "Internal error"),
             Self::TooSlow => (
                 "too-slow",

@@ -1,6 +1,6 @@
 //! The only list of routes: routing and document both come from it.
 
-use super::Limits;
+use super::App;
 use super::api::{
     diagrams, documents, figures, health, image_irradiance, plan, radiance, roughness, tradeoff,
 };
@@ -13,7 +13,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 /// Every documented resource.
-fn documented() -> OpenApiRouter<Limits> {
+fn documented() -> OpenApiRouter<App> {
     OpenApiRouter::with_openapi(openapi::information())
         .routes(routes!(radiance::radiance))
         .routes(routes!(radiance::brdf))
@@ -35,10 +35,10 @@ pub(super) fn document() -> OpenApi {
 }
 
 /// The service's routes.
-pub(super) fn routes(limits: Limits) -> Router {
+pub(super) fn routes(app: App) -> Router {
     let (router, _) = documented().split_for_parts();
     router
         .merge(documents::reference())
         .fallback(|| async { Err::<(), Problem>(not_found()) })
-        .with_state(limits)
+        .with_state(app)
 }

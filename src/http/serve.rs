@@ -36,7 +36,7 @@ pub async fn serve(listener: TcpListener, mut signals: StopSignals, config: &Con
         router: router(config).layer(from_fn_with_state(Arc::clone(&in_flight), count)),
         http1: http1(config),
         http2: http2(config),
-        patience: config.request_timeout_seconds,
+        patience: config.requests.request_timeout_seconds,
         in_flight,
     });
     let open = GracefulShutdown::new();
@@ -63,7 +63,7 @@ pub async fn serve(listener: TcpListener, mut signals: StopSignals, config: &Con
             tracing::info!("stopped");
             true
         }
-        () = tokio::time::sleep(config.shutdown_timeout_seconds) => {
+        () = tokio::time::sleep(config.stopping.shutdown_timeout_seconds) => {
             tracing::warn!("stopped with requests unfinished");
             false
         }
@@ -75,7 +75,7 @@ fn http1(config: &Config) -> Builder<TokioExecutor> {
     builder
         .http1()
         .timer(TokioTimer::new())
-        .header_read_timeout(config.request_timeout_seconds)
+        .header_read_timeout(config.requests.request_timeout_seconds)
         .max_buf_size(MAX_HEAD_BYTES);
     builder
 }
@@ -86,7 +86,7 @@ fn http2(config: &Config) -> Builder<TokioExecutor> {
         .http2()
         .timer(TokioTimer::new())
         .max_header_list_size(u32::try_from(MAX_HEAD_BYTES).unwrap_or(u32::MAX))
-        .keep_alive_interval(Some(config.request_timeout_seconds));
+        .keep_alive_interval(Some(config.requests.request_timeout_seconds));
     builder
 }
 

@@ -1,6 +1,6 @@
 //! What happens around every request: its deadline, its problem document, its line in the log.
 
-use super::Limits;
+use super::app::{App, Limits};
 use super::problem::{Kind, Problem};
 use axum::body::{Body, HttpBody as _};
 use axum::extract::{FromRequestParts, Request, State};
@@ -16,26 +16,26 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deadline(pub(super) tokio::time::Instant);
 
-impl FromRequestParts<Limits> for Deadline {
+impl FromRequestParts<App> for Deadline {
     type Rejection = Infallible;
 
-    async fn from_request_parts(parts: &mut Parts, limits: &Limits) -> Result<Self, Infallible> {
-        Ok(parts.extensions.get::<Self>().copied().unwrap_or_else(|| Self::from_now(*limits)))
+    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Infallible> {
+        Ok(parts.extensions.get::<Self>().copied().unwrap_or_else(|| Self::from_now(app.limits())))
     }
 }
 
 impl Deadline {
-    fn from_now(limits: Limits) -> Self {
+    fn from_now(limits: &Limits) -> Self {
         Self(tokio::time::Instant::now() + limits.request_time)
     }
 }
 
 /// Outermost layer: everything that leaves the service passes here.
-pub(super) async fn track(State(limits): State<Limits>, mut request: Request, next: Next) -> Response {
+pub(super) async fn track(State(app): State<App>, mut request: Request, next: Next) -> Response {
     let started = Instant::now();
     let method = request.method().clone();
     let path = request.uri().path().to_owned();
-    request.extensions_mut().insert(Deadline::from_now(limits));
+    request.extensions_mut().insert(Deadline::from_now(app.limits()));
 
     let response = next.run(request).await;
     let mut response = settle(response, &method, &path);

@@ -97,5 +97,7 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 pub const MAX_DIRECTIONS: usize = 1_000_000;
 /// Points along one sweep.
 pub const MAX_SWEEP_POINTS: usize = 1_000_000;
+/// Rows of one diagram: points times fixed angles.
+pub const MAX_ROWS: usize = 10_000_000;
 /// Fixed angles of one diagram.
 pub const MAX_CURVES: usize = 100;

@@ -1,6 +1,6 @@
 //! What the service says about itself: the `OpenAPI` document and the interactive reference.
 
-use crate::http::Limits;
+use crate::http::app::App;
 use crate::http::openapi::openapi_json;
 use axum::Router;
 use axum::http::header;
@@ -23,7 +23,7 @@ pub(crate) async fn openapi() -> Response {
 }
 
 /// The reference at `/docs`, where `/` leads; its pages and scripts are part of the program.
-pub(crate) fn reference() -> Router<Limits> {
+pub(crate) fn reference() -> Router<App> {
     // Without "none" the page asks a public validator about every document that is not on localhost.
     let config = Config::from("/openapi.json").validator_url("none");
     Router::from(SwaggerUi::new("/docs").config(config))

@@ -3,7 +3,7 @@
 use super::node::{Array, Node, Object};
 use super::object::WireObject;
 use super::reader::{Fields, Reader};
-use crate::http::Limits;
+use crate::http::app::App;
 use crate::http::problem::{Kind, Problem};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -14,10 +14,10 @@ const MOST_PARAMETERS: usize = 512;
 /// A value read from the query.
 pub(crate) struct Query<T>(pub(crate) T);
 
-impl<T: WireObject + Send> FromRequestParts<Limits> for Query<T> {
+impl<T: WireObject + Send> FromRequestParts<App> for Query<T> {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, _: &Limits) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, _: &App) -> Result<Self, Problem> {
         read(parts.uri.query().unwrap_or_default()).map(Self)
     }
 }

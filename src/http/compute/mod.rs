@@ -1,5 +1,9 @@
 //! Where the computing happens: small work at once, large work off the threads that serve connections.
 
+pub(crate) mod admission;
+pub(crate) mod job;
+pub(crate) mod pool;
+
 use super::problem::{Kind, Problem};
 use super::track::Deadline;
 use tokio::sync::{Semaphore, SemaphorePermit};
@@ -48,7 +52,10 @@ pub(super) async fn blocking<T: Send + 'static>(
     deadline: Deadline,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Problem> {
-    let work = move || (!passed(deadline)).then(work);
+    let work = move || {
+        pool::lower_priority();
+        (!passed(deadline)).then(work)
+    };
     match tokio::time::timeout_at(deadline.0, tokio::task::spawn_blocking(work)).await {
         Ok(Ok(Some(value))) => Ok(value),
         Ok(Err(error)) => {

@@ -1,0 +1,47 @@
+//! What the values of flags may be; every refusal says what is accepted.
+
+use std::fmt::Display;
+use std::num::NonZeroU32;
+use std::str::FromStr;
+use std::time::Duration;
+
+/// A whole number between two.
+pub(super) fn whole<N: FromStr + PartialOrd + Display>(text: &str, least: N, most: N) -> Result<N, String> {
+    text.parse()
+        .ok()
+        .filter(|number| (&least..=&most).contains(&number))
+        .ok_or_else(|| format!("expected a whole number from {least} to {most}"))
+}
+
+/// A number of bytes between 1 KiB and 4 GiB.
+pub(super) fn size(text: &str) -> Result<u64, String> {
+    whole(text, 1 << 10, 1 << 32)
+}
+
+/// A number of things, at least one.
+pub(super) fn count(text: &str) -> Result<usize, String> {
+    whole(text, 1, 1 << 20)
+}
+
+/// A number of things, at least one, that is part of a rate.
+pub(super) fn nonzero(text: &str) -> Result<NonZeroU32, String> {
+    whole(text, 1, 1_000_000).and_then(|number: u32| NonZeroU32::new(number).ok_or_else(String::new))
+}
+
+/// A positive number of seconds up to a day.
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+    between(text, 0.001)
+}
+
+/// A number of seconds up to a day, 0 among them.
+pub(super) fn seconds_or_none(text: &str) -> Result<Duration, String> {
+    between(text, 0.0)
+}
+
+fn between(text: &str, least: f64) -> Result<Duration, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|seconds| (least..=86_400.0).contains(seconds))
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| format!("expected a number from {least} to 86400"))
+}
