@@ -2,6 +2,7 @@
 
 use super::compute::admission::Admission;
 use super::compute::pool::Pool;
+use super::transport::doors::Doors;
 use crate::config::Config;
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,6 +15,7 @@ struct Shared {
     limits: Limits,
     pool: Pool,
     admission: Admission,
+    doors: Arc<Doors>,
 }
 
 /// What a request may be and take. Each has a flag, a place in `/v1/limits` and in the message of the error it causes.
@@ -69,6 +71,7 @@ impl App {
             limits,
             pool: Pool::new(config.capacity.pool_threads),
             admission: Admission::new(&limits),
+            doors: Doors::new(limits.connections),
         }))
     }
 
@@ -82,5 +85,10 @@ impl App {
 
     pub(crate) fn admission(&self) -> &Admission {
         &self.0.admission
+    }
+
+    /// Whether the service is on its way out, and how many connections it has.
+    pub(crate) fn doors(&self) -> &Arc<Doors> {
+        &self.0.doors
     }
 }

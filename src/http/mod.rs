@@ -4,7 +4,6 @@ mod api;
 mod app;
 mod body;
 mod compute;
-mod connection;
 mod encode;
 mod input;
 mod link;
@@ -12,11 +11,11 @@ mod negotiate;
 mod openapi;
 mod problem;
 mod routes;
-mod serve;
 mod track;
+mod transport;
 
 pub use openapi::openapi_json;
-pub use serve::{StopSignals, serve};
+pub use transport::{Service, Signals};
 
 use crate::config::Config;
 use app::App;
@@ -27,7 +26,10 @@ use tower_http::catch_panic::CatchPanicLayer;
 
 /// The whole service as one `tower` service.
 pub fn router(config: &Config) -> Router {
-    let app = App::new(config);
+    service(App::new(config))
+}
+
+fn service(app: App) -> Router {
     // As a service of its own: a layer on the routes themselves would not see the `Allow` that axum adds
     // outside of them.
     Router::new()
@@ -37,10 +39,10 @@ pub fn router(config: &Config) -> Router {
 }
 
 /// What the program says when it is ready.
-pub fn greeting(address: SocketAddr) -> String {
+pub fn greeting(scheme: &str, address: SocketAddr) -> String {
     format!(
-        "reflectance {version} on http://{address}/  (reference: http://{address}/docs)\n\
-         Try: curl -s http://{address}/v1/radiance -H 'content-type: application/json' -d '{body}'\n",
+        "reflectance {version} on {scheme}://{address}/  (reference: {scheme}://{address}/docs)\n\
+         Try: curl -s {scheme}://{address}/v1/radiance -H 'content-type: application/json' -d '{body}'\n",
         version = env!("CARGO_PKG_VERSION"),
         body = api::FIRST_REQUEST.replace('\n', ""),
     )

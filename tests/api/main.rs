@@ -14,3 +14,5 @@ mod radiance;
 mod readme;
 mod server;
 mod tradeoff;
+mod transport;
+mod wire;
