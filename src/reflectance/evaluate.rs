@@ -114,11 +114,6 @@ impl Prepared {
         &self.warnings
     }
 
-    /// What a direction costs, in vectorised exponentials of some 3 ns, good to a factor of two.
-    pub fn cost(&self) -> f64 {
-        cost::expected(&self.scene, self.output.log10)
-    }
-
     /// Evaluates a range of the directions that it was made ready for; `is_over` is asked every few tens of microseconds
     /// whether to stop, and what is missing then is missing at the end.
     pub fn stretch(
@@ -189,6 +184,12 @@ impl Prepared {
             diagnostics: parts.diagnostics,
         }
     }
+}
+
+/// What a direction costs before it is known what it requires, in vectorised exponentials of some 3 ns: good to a factor of
+/// two.
+pub fn expected_cost(scene: &Scene, output: Output) -> f64 {
+    cost::expected(scene, output.log10)
 }
 
 /// Evaluates a scene in every direction; many directions on all threads of rayon's current pool.
