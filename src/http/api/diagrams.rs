@@ -4,7 +4,7 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
-use crate::http::answer::{self, Over, Work};
+use crate::http::answer::{self, Over, Subject, Work};
 use crate::http::app::App;
 use crate::http::body::JsonBody;
 use crate::http::encode::rows::Binary;
@@ -19,7 +19,6 @@ use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
 use axum::extract::State;
 use axum::response::Response;
-use std::sync::Arc;
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -100,11 +99,11 @@ async fn draw(
     request: DiagramRequest,
 ) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
-    let work = Work {
-        scene: Arc::new(scene),
+    let subject = Subject::Scene {
+        scene: Box::new(scene),
         quantity: quantity.unwrap_or(Quantity::Radiance),
         output: OutputWire::chosen(output),
-        over: Over::Sweep(Arc::new(sweep)),
     };
+    let work = Work { subject, over: Over::Sweep(Box::new(sweep)) };
     answer::respond(app, deadline, None, work, format).await
 }

@@ -3,7 +3,7 @@
 use super::answer::Answer;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
-use crate::http::answer::{self, Over, Work};
+use crate::http::answer::{self, Over, Subject, Work};
 use crate::http::app::App;
 use crate::http::body::JsonBody;
 use crate::http::encode::rows::Binary;
@@ -20,7 +20,6 @@ use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
 use axum::extract::State;
 use axum::response::Response;
-use std::sync::Arc;
 use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::Schema;
 
@@ -184,7 +183,7 @@ async fn answer(
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
-    let (scene, over) = (Arc::new(scene), Over::Directions(Arc::new(directions)));
-    let work = Work { scene, quantity, output: OutputWire::chosen(output), over };
+    let subject = Subject::Scene { scene: Box::new(scene), quantity, output: OutputWire::chosen(output) };
+    let work = Work { subject, over: Over::Directions(Box::new(directions)) };
     answer::respond(app, deadline, None, work, format).await
 }
