@@ -85,7 +85,7 @@ pub(crate) async fn link(
 pub(crate) async fn diagram(
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<DiagramRequest>,
+    JsonBody { value: request, .. }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
     let body = draw(format, deadline, request).await?;
     Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, VARY)], body).into_response())

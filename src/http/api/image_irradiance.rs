@@ -327,7 +327,7 @@ pub(crate) enum ImageAnswer {
 pub(crate) async fn image_irradiance(
     _: JsonOnly,
     deadline: Deadline,
-    JsonBody(request): JsonBody<ImageRequest>,
+    JsonBody { value: request, .. }: JsonBody<ImageRequest>,
 ) -> Result<Response, Problem> {
     let count = match &request {
         ImageRequest::Camera { request, .. } => request.geometry.0.count(),
