@@ -12,7 +12,7 @@ pub struct Stretch {
     first: usize,
     tolerance: f64,
     is_named: bool,
-    columns: Columns,
+    pub(super) columns: Columns,
     method: Option<Vec<EvaluatedBy>>,
     roughness_g: Option<Vec<f64>>,
     tally: Tally,

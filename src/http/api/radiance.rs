@@ -14,7 +14,7 @@ use crate::http::input::object::{WireObject, documented_parameters, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::AnglesWire;
 use crate::http::input::wire::{Parameter, Schemas, Wire};
-use crate::http::negotiate::JsonOnly;
+use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::{Code, Problem};
 use crate::http::track::Deadline;
 use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
@@ -175,15 +175,23 @@ impl IntoParams for BesideColumns {
         ),
         description = "The scene and the directions; or directions alone, as columns."
     ),
-    responses((status = 200, description = "The radiance in each direction.", body = Answer), PostProblems)
+    responses(
+        (status = 200, description = "The radiance in each direction.", content(
+            (Answer = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        )),
+        PostProblems
+    )
 )]
 pub(crate) async fn radiance(
-    _: JsonOnly,
     State(app): State<App>,
+    Tabular(format): Tabular,
     deadline: Deadline,
     JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(&app, Quantity::Radiance, deadline, turn, request).await
+    answer(&app, Quantity::Radiance, format, deadline, turn, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
@@ -203,20 +211,29 @@ pub(crate) async fn radiance(
         ),
         description = "The scene and the directions; or directions alone, as columns."
     ),
-    responses((status = 200, description = "The BRDF in each direction.", body = Answer), PostProblems)
+    responses(
+        (status = 200, description = "The BRDF in each direction.", content(
+            (Answer = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        )),
+        PostProblems
+    )
 )]
 pub(crate) async fn brdf(
-    _: JsonOnly,
     State(app): State<App>,
+    Tabular(format): Tabular,
     deadline: Deadline,
     JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(&app, Quantity::Brdf, deadline, turn, request).await
+    answer(&app, Quantity::Brdf, format, deadline, turn, request).await
 }
 
 async fn answer(
     app: &App,
     quantity: Quantity,
+    format: Format,
     deadline: Deadline,
     turn: Option<Turn>,
     request: RadianceRequest,
@@ -225,5 +242,5 @@ async fn answer(
         request;
     let (scene, over) = (Arc::new(scene), Over::Directions(Arc::new(directions)));
     let work = Work { scene, quantity, output: OutputWire::chosen(output), over };
-    answer::respond(app, deadline, turn, work).await
+    answer::respond(app, deadline, turn, work, format).await
 }
