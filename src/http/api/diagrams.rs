@@ -7,6 +7,7 @@ use super::sweep::CheckedSweep;
 use crate::http::answer::{self, Over, Subject, Work};
 use crate::http::app::App;
 use crate::http::body::JsonBody;
+use crate::http::compute::admission::Turn;
 use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
 use crate::http::input::object::object;
@@ -64,7 +65,7 @@ pub(crate) async fn link(
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
     let key = format!("{request:?}{format:?}");
-    linked(&known, &key, draw(&app, format, deadline, request)).await
+    linked(&known, &key, draw(&app, format, deadline, None, request)).await
 }
 
 /// A tabulated diagram.
@@ -87,15 +88,16 @@ pub(crate) async fn diagram(
     State(app): State<App>,
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<DiagramRequest>,
+    JsonBody { value: request, turn }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    draw(&app, format, deadline, request).await
+    draw(&app, format, deadline, turn, request).await
 }
 
 async fn draw(
     app: &App,
     format: Format,
     deadline: Deadline,
+    turn: Option<Turn>,
     request: DiagramRequest,
 ) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
@@ -105,5 +107,5 @@ async fn draw(
         output: OutputWire::chosen(output),
     };
     let work = Work { subject, over: Over::Sweep(Box::new(sweep)) };
-    answer::respond(app, deadline, None, work, format).await
+    answer::respond(app, deadline, turn, work, format).await
 }

@@ -300,7 +300,7 @@ pub(crate) async fn image_irradiance(
     State(app): State<App>,
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<ImageRequest>,
+    JsonBody { value: request, turn }: JsonBody<ImageRequest>,
 ) -> Result<Response, Problem> {
     let work = match request {
         ImageRequest::Camera { request, factor } => {
@@ -317,5 +317,5 @@ pub(crate) async fn image_irradiance(
             Work { subject, over: Over::Directions(Box::new(directions)) }
         }
     };
-    answer::respond(&app, deadline, None, work, format).await
+    answer::respond(&app, deadline, turn, work, format).await
 }
