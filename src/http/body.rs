@@ -1,6 +1,7 @@
 //! The JSON body of a request: checked head first, then read, then parsed.
 
 use super::app::{App, Limits};
+use super::coding::expand;
 use super::compute;
 use super::input::node;
 use super::input::reader::Reader;
@@ -29,6 +30,7 @@ impl<T: Wire + Send + 'static> FromRequest<App> for JsonBody<T> {
     async fn from_request(request: Request, app: &App) -> Result<Self, Problem> {
         let limits = app.limits();
         check_content_type(request.headers())?;
+        let coding = expand::coding(request.headers())?;
         let (mut parts, body) = request.into_parts();
         let Ok(deadline) = Deadline::from_request_parts(&mut parts, app).await;
         let request = Request::from_parts(parts, body);
@@ -37,6 +39,10 @@ impl<T: Wire + Send + 'static> FromRequest<App> for JsonBody<T> {
             let limit = limits.request_time.as_secs_f64();
             Err(Problem::new(Kind::RequestTimeout, format!("the body did not arrive within {limit} s")))
         })?;
+        let bytes = match coding {
+            Some(coding) => expand::body(app, coding, bytes).await?,
+            None => bytes,
+        };
         if bytes.len() <= SMALL {
             read_json(&bytes).map(Self)
         } else {

@@ -3,6 +3,7 @@
 mod api;
 mod app;
 mod body;
+mod coding;
 mod compute;
 mod connection;
 mod encode;

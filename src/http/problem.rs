@@ -1,5 +1,6 @@
 //! Errors as clients see them: RFC 9457 problem documents.
 
+use super::coding::Coding;
 use super::input::node::excerpt;
 use axum::body::Body;
 use axum::http::{HeaderValue, StatusCode, header};
@@ -27,6 +28,7 @@ pub(crate) enum Kind {
     RequestTimeout,
     ContentTooLarge,
     UnsupportedMediaType,
+    UnsupportedCoding,
     InvalidRequest,
     Unauthorized,
     RateLimited,
@@ -64,6 +66,11 @@ impl Kind {
             Self::UnsupportedMediaType => {
                 ("unsupported-media-type", StatusCode::UNSUPPORTED_MEDIA_TYPE, "The body has to be JSON")
             }
+            Self::UnsupportedCoding => (
+                "unsupported-content-coding",
+                StatusCode::UNSUPPORTED_MEDIA_TYPE,
+                "The body is packed in a way that is not read",
+            ),
             Self::InvalidRequest => {
                 ("invalid-request", StatusCode::UNPROCESSABLE_ENTITY, "The request has invalid fields")
             }
@@ -209,7 +216,12 @@ impl Problem {
         let body = serde_json::to_vec(&document).unwrap_or_default();
         let mut response = Response::new(Body::from(body));
         *response.status_mut() = status;
-        response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
+        let headers = response.headers_mut();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+        if self.kind == Kind::UnsupportedCoding {
+            headers.insert(header::ACCEPT_ENCODING, HeaderValue::from_static(Coding::LIST));
+        }
         if status == StatusCode::SERVICE_UNAVAILABLE {
             response.headers_mut().insert(header::RETRY_AFTER, RETRY_AFTER);
         }

@@ -10,7 +10,7 @@ use super::scene::Scene;
 use super::table::{Column, Curve, Table};
 
 /// Which zenith angle runs; the other is fixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SweepAxis {
     /// θ_r for a fixed source, as in figures 11 to 21.
     ThetaR,
@@ -45,7 +45,7 @@ impl SweepAxis {
 }
 
 /// How the sweep is divided.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Division {
     /// From the start in steps of this many degrees, while the end is not passed.
     Step(SweepStep),

@@ -18,7 +18,7 @@ use super::torrance_sparrow;
 pub use super::model::{Component, Model};
 
 /// What the surface is made of and how rough it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Surface {
     /// σ_h of the height density (4).
     pub rms_height: Option<RmsHeight>,
@@ -37,7 +37,7 @@ pub struct Surface {
 }
 
 /// The light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Illumination {
     /// λ; needed by the height models only.
     pub wavelength: Option<Wavelength>,
@@ -48,7 +48,7 @@ pub struct Illumination {
 }
 
 /// What the sensor sees of the surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Sensor {
     /// The quantities of (47) and (35) themselves.
     Patch {
@@ -64,7 +64,7 @@ pub enum Sensor {
 }
 
 /// The camera of figure 10.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct CameraSensor {
     /// dA_im
     pub pixel_area: Area,
@@ -101,7 +101,7 @@ pub enum Components {
 }
 
 /// Tolerance and method.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Accuracy {
     /// Relative, of the total, per direction.
     pub relative_tolerance: Tolerance,
@@ -110,7 +110,7 @@ pub struct Accuracy {
 }
 
 /// Everything about a scene but the directions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Hash)]
 pub struct SceneParameters {
     /// The model.
     pub model: Model,
