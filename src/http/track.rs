@@ -3,6 +3,7 @@
 use super::app::{App, Limits};
 use super::coding::Wanted;
 use super::coding::compress::compress;
+use super::link::take_version;
 use super::problem::{Kind, Problem};
 use axum::body::{Body, HttpBody as _};
 use axum::extract::{FromRequestParts, Request, State};
@@ -45,7 +46,10 @@ pub(super) async fn track(State(app): State<App>, mut request: Request, next: Ne
 
     let wanted = Wanted::of(request.headers());
     let is_head = method == Method::HEAD;
-    let response = next.run(request).await;
+    let response = match take_version(&mut request) {
+        Ok(()) => next.run(request).await,
+        Err(problem) => problem.into_response(),
+    };
     let mut response = compress(&app, wanted, is_head, settle(response, &method, &path)).await;
     if is_head {
         // The length is that of the answer to GET; the bytes stay here.

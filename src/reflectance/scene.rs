@@ -14,6 +14,7 @@ use super::radiometry::Camera;
 use super::roughness;
 use super::shadowing::Shadowing;
 use super::torrance_sparrow;
+use core::hash::{Hash, Hasher};
 
 pub use super::model::{Component, Model};
 
@@ -100,6 +101,17 @@ pub enum Components {
     Named(Vec<Component>),
 }
 
+/// By the components, in whatever order they are named: they are answered in the model's.
+impl Hash for Components {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Self::Auto => None,
+            Self::Named(named) => Some(Component::ALL.map(|component| named.contains(&component))),
+        }
+        .hash(state);
+    }
+}
+
 /// Tolerance and method.
 #[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Accuracy {
@@ -134,6 +146,13 @@ pub struct Scene {
     pub(super) evaluated: Vec<Component>,
     /// Where the model has facets.
     pub(super) facets: Option<FacetParameters>,
+}
+
+/// By its parameters, from which all else follows.
+impl Hash for Scene {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.parameters.hash(state);
+    }
 }
 
 /// What the facet lobe (70) is made of.

@@ -12,13 +12,14 @@ use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
-use crate::http::link::{Known, tagged};
+use crate::http::link::{Known, key, linked};
 use crate::http::negotiate::{Format, Tabular, VARY};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
 use axum::http::header;
 use axum::response::{IntoResponse as _, Response};
+use std::hash::{Hash, Hasher};
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -33,6 +34,14 @@ object! {
         output: Option<OutputWire>,
         ..sweep: CheckedSweep,
         ..scene: CheckedScene,
+    }
+}
+
+/// By what it asks for: the same where a default is given and where it is left out.
+impl Hash for DiagramRequest {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let quantity = self.quantity.unwrap_or(Quantity::Radiance).name();
+        (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene.0).hash(state);
     }
 }
 
@@ -62,8 +71,12 @@ pub(crate) async fn link(
     deadline: Deadline,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(tagged(&known, format.content_type(), body))
+    let key = key(&("/v1/diagrams", format.media_type(), &request));
+    let answer = async {
+        let body = draw(format, deadline, request).await?;
+        Ok(([(header::CONTENT_TYPE, format.content_type())], body).into_response())
+    };
+    linked(&known, &key, answer).await
 }
 
 /// A tabulated diagram.
