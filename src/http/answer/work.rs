@@ -1,6 +1,7 @@
 //! What is to be evaluated for one answer: a scene over directions, or over the curves of a sweep.
 
-use crate::http::problem::Problem;
+use crate::http::app::Limits;
+use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::Directions;
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
@@ -49,6 +50,20 @@ impl Work {
             Over::Directions(directions) => directions.count(),
             Over::Sweep(sweep) => sweep.rows(),
         }
+    }
+
+    /// What is wrong with it by the limits of this service, which may be below those of the document.
+    pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
+        let (pointer, what, limit) = match self.over {
+            Over::Directions(_) => ("/geometry", "directions", limits.directions),
+            Over::Sweep(_) => ("/at_deg", "rows, points times fixed angles,", limits.rows),
+        };
+        let rows = self.rows();
+        if rows <= limit {
+            return Ok(());
+        }
+        let detail = format!("{rows} {what} in one request: at most {limit} are answered at once");
+        Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
     }
 
     pub(super) fn curves(&self) -> usize {

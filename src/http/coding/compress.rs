@@ -25,7 +25,7 @@ const PIECE: usize = 64 << 10;
 
 /// The answer as its client wants it.
 pub(crate) async fn compress(app: &App, wanted: Wanted, is_head: bool, response: Response) -> Response {
-    let length = response.body().size_hint().exact();
+    let length = if is_head { announced(response.headers()) } else { response.body().size_hint().exact() };
     if length.is_some_and(|length| length == 0 || (length < WORTH_IT && !wanted.always))
         || !is_packable(response.status(), response.headers())
     {
@@ -48,6 +48,11 @@ pub(crate) async fn compress(app: &App, wanted: Wanted, is_head: bool, response:
         }
     };
     Response::from_parts(parts, body)
+}
+
+/// The length of the answer to GET, whose body the router took off already.
+fn announced(headers: &HeaderMap) -> Option<u64> {
+    headers.get(header::CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
 }
 
 /// Whether an answer's bytes may be packed and can be expected to get fewer.

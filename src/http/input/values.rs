@@ -7,7 +7,7 @@ use super::wire::{
     Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, text_number,
 };
 use crate::http::problem::Code;
-use crate::reflectance::bounds::MAX_DIRECTIONS;
+use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
 use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::numeric::lobe_series::Method;
@@ -34,6 +34,7 @@ pub(crate) struct AnglesWire<Q> {
 }
 
 impl<Q: Quantity> Wire for AnglesWire<Q> {
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
             Node::Array(_) => {
@@ -68,6 +69,7 @@ pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Option<Q>>);
 
 impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
     const REPEATABLE: bool = true;
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let node = if reader.is_flat() { split(node) } else { node };
@@ -224,7 +226,7 @@ impl Wire for Medium {
     fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
         let schema = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA)).into();
         let description = format!("{description} Or n and k.");
-        let mut parameters = vec![Parameter { name, description, required, schema }];
+        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(IndexWire::query_parameters(false));
         parameters
     }
@@ -331,7 +333,7 @@ impl Wire for Polarization {
         let schema = named_schema::<NamedPolarization>();
         let description =
             format!("{description} Or `parallel` and `perpendicular`, two shares that add up to 1.");
-        let mut parameters = vec![Parameter { name, description, required, schema }];
+        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(MixWire::query_parameters(false));
         parameters
     }
