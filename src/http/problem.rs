@@ -39,6 +39,28 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
+    /// Every kind, in the order of their declaration.
+    pub(crate) const ALL: [Self; 18] = [
+        Self::MalformedJson,
+        Self::MalformedQuery,
+        Self::BadRequest,
+        Self::BodyUnreadable,
+        Self::NotFound,
+        Self::MethodNotAllowed,
+        Self::NotAcceptable,
+        Self::RequestTimeout,
+        Self::ContentTooLarge,
+        Self::UnsupportedMediaType,
+        Self::UnsupportedCoding,
+        Self::InvalidRequest,
+        Self::Unauthorized,
+        Self::RateLimited,
+        Self::Internal,
+        Self::TooSlow,
+        Self::Overloaded,
+        Self::CpuTime,
+    ];
+
     /// The last segment of `type`, the status and the title.
     const fn parts(self) -> (&'static str, StatusCode, &'static str) {
         match self {
@@ -95,11 +117,29 @@ impl Kind {
         }
     }
 
+    /// The last segment of `type`.
+    pub(crate) const fn slug(self) -> &'static str {
+        self.parts().0
+    }
+
     /// The HTTP status.
     pub(crate) const fn status(self) -> StatusCode {
         self.parts().1
     }
+
+    /// The kind in words.
+    pub(crate) const fn title(self) -> &'static str {
+        self.parts().2
+    }
+
+    /// The value of `type`: a link to what the kind means.
+    pub(crate) fn reference(self) -> String {
+        format!("/problems/{}", self.slug())
+    }
 }
+
+// The last kind is the last of all: none is left out.
+const _: () = assert!(Kind::ALL.len() == Kind::CpuTime as usize + 1);
 
 /// What is wrong with a field. The names are stable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
@@ -203,10 +243,10 @@ impl Problem {
 
     /// The response for a request to `path`, with `headers` that were already set (`Allow`).
     pub(crate) fn render(&self, path: &str) -> Response {
-        let (slug, status, title) = self.kind.parts();
+        let status = self.kind.status();
         let document = Document {
-            kind: format!("/problems/{slug}"),
-            title,
+            kind: self.kind.reference(),
+            title: self.kind.title(),
             status: status.as_u16(),
             detail: &self.detail,
             instance: path,
