@@ -2,6 +2,7 @@
 //! request in the query.
 
 use super::app::App;
+use super::coding::expand;
 use super::compute;
 use super::compute::admission::Turn;
 use super::decode;
@@ -111,9 +112,14 @@ struct Received {
 async fn receive(request: Request, app: &App) -> Result<Received, Problem> {
     let (mut parts, body) = request.into_parts();
     let Ok(deadline) = Deadline::from_request_parts(&mut parts, app).await;
+    let coding = expand::coding(&parts.headers)?;
     let mut incoming = Incoming { app, deadline, body, turn: None };
-    let bytes = incoming.bytes(&parts.headers).await?;
-    Ok(Received { parts, bytes, turn: incoming.turn, deadline })
+    let mut bytes = incoming.bytes(&parts.headers).await?;
+    let mut turn = incoming.turn;
+    if let Some(coding) = coding {
+        bytes = expand::body(app, coding, bytes, &mut turn).await?;
+    }
+    Ok(Received { parts, bytes, turn, deadline })
 }
 
 /// A body on its way.

@@ -4,6 +4,7 @@ mod answer;
 mod api;
 mod app;
 mod body;
+mod coding;
 mod compute;
 mod connection;
 mod decode;

@@ -1,6 +1,9 @@
 //! What happens around every request: its deadline, its problem document, its line in the log.
 
 use super::app::{App, Limits};
+use super::coding::Wanted;
+use super::coding::compress::compress;
+use super::link::take_version;
 use super::problem::{Kind, Problem};
 use axum::body::{Body, HttpBody as _};
 use axum::extract::{FromRequestParts, Request, State};
@@ -41,9 +44,14 @@ pub(super) async fn track(State(app): State<App>, mut request: Request, next: Ne
     let path = request.uri().path().to_owned();
     request.extensions_mut().insert(Deadline::from_now(app.limits()));
 
-    let response = next.run(request).await;
-    let mut response = settle(response, &method, &path);
-    if method == Method::HEAD {
+    let wanted = Wanted::of(request.headers());
+    let is_head = method == Method::HEAD;
+    let response = match take_version(&mut request) {
+        Ok(()) => next.run(request).await,
+        Err(problem) => problem.into_response(),
+    };
+    let mut response = compress(&app, wanted, is_head, settle(response, &method, &path)).await;
+    if is_head {
         // The length is that of the answer to GET; the bytes stay here.
         if let Some(length) = response.body().size_hint().exact() {
             response.headers_mut().entry(header::CONTENT_LENGTH).or_insert(length.into());

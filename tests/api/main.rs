@@ -2,7 +2,9 @@
 
 mod at_once;
 mod bad_input;
+mod caching;
 mod command_line;
+mod compression;
 mod diagrams;
 mod documents;
 mod examples;

@@ -13,13 +13,14 @@ use crate::http::encode::table::Diagram;
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
-use crate::http::link::{Known, linked};
+use crate::http::link::{Known, key, linked};
 use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
 use axum::extract::State;
 use axum::response::Response;
+use std::hash::{Hash, Hasher};
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -34,6 +35,14 @@ object! {
         output: Option<OutputWire>,
         ..sweep: CheckedSweep,
         ..scene: CheckedScene,
+    }
+}
+
+/// By what it asks for: the same where a default is given and where it is left out.
+impl Hash for DiagramRequest {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let quantity = self.quantity.unwrap_or(Quantity::Radiance).name();
+        (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene.0).hash(state);
     }
 }
 
@@ -64,7 +73,7 @@ pub(crate) async fn link(
     deadline: Deadline,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let key = format!("{request:?}{format:?}");
+    let key = key(&("/v1/diagrams", format.media_type(), &request));
     linked(&known, &key, draw(&app, format, deadline, None, request)).await
 }
 

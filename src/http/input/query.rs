@@ -10,7 +10,7 @@ use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 
 /// Ten times the parameters there are, with a hundred fixed angles one by one.
-const MOST_PARAMETERS: usize = 512;
+pub(crate) const MOST_PARAMETERS: usize = 512;
 
 /// A value read from the query.
 pub(crate) struct Query<T>(pub(crate) T);
