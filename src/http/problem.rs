@@ -33,6 +33,7 @@ pub(crate) enum Kind {
     Internal,
     TooSlow,
     Overloaded,
+    Stopping,
     CpuTime,
 }
 
@@ -74,6 +75,7 @@ impl Kind {
             Self::Overloaded => {
                 ("overloaded", StatusCode::SERVICE_UNAVAILABLE, "The service has as much work as it takes on")
             }
+            Self::Stopping => ("stopping", StatusCode::SERVICE_UNAVAILABLE, "The service is about to stop"),
             Self::CpuTime => (
                 "cpu-time-exceeded",
                 StatusCode::UNPROCESSABLE_ENTITY,
@@ -192,6 +194,11 @@ impl Problem {
     pub(crate) fn unwritten(error: &dyn std::error::Error) -> Self {
         tracing::error!(%error, "an answer could not be written");
         Self::internal()
+    }
+
+    /// Kind and detail, for the log.
+    pub(crate) fn summary(&self) -> String {
+        format!("{}: {}", self.kind.parts().0, self.detail)
     }
 
     /// The response for a request to `path`, with `headers` that were already set (`Allow`).
