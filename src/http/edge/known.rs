@@ -1,10 +1,9 @@
 //! What is known about a request while it is answered.
 
-use super::deadline::Deadline;
 use super::identity::Trace;
 use super::peer::Peer;
 use super::route::Route;
-use crate::http::app::{App, Limits};
+use crate::http::app::App;
 use crate::reflectance::evaluate::EvaluatedBy;
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -41,10 +40,6 @@ impl Known {
     /// Who asks, for people: the key's name, or else the address.
     pub(super) fn client(&self) -> &str {
         self.key.get().map_or(self.peer.text(), |name| name)
-    }
-
-    pub(super) fn deadline(&self, limits: &Limits) -> Deadline {
-        Deadline(self.started + limits.request_time)
     }
 }
 
