@@ -1,16 +1,20 @@
 //! What happens around every request: its name, who may ask, its headers, its line in the log, what is counted.
 
 mod access_log;
+mod cors;
 mod deadline;
 mod gate;
 mod headers;
 mod identity;
+mod keys;
 mod known;
 mod metrics;
 mod peer;
+mod rate;
 mod record;
 mod route;
 mod settle;
+mod spans;
 
 pub(super) use deadline::Deadline;
 pub(super) use known::Tally;
@@ -21,15 +25,19 @@ use crate::config::Config;
 use access_log::AccessLog;
 use axum::Router;
 use axum::body::{Body, Bytes, HttpBody};
-use axum::http::Request;
+use axum::http::{HeaderMap, HeaderValue, Request, header};
 use axum::response::Response;
+use cors::Origins;
 use gate::Gate;
 use headers::Headers;
 use identity::{Names, Trace};
+use keys::Keys;
 use known::Known;
 use metrics::Metrics;
 use peer::Peer;
+use rate::RateLimit;
 use record::Record;
+use spans::Spans;
 use std::convert::Infallible;
 use std::net::SocketAddr;
 use std::pin::Pin;
@@ -44,6 +52,10 @@ pub(super) struct State {
     headers: Headers,
     log: AccessLog,
     metrics: Metrics,
+    spans: Option<Spans>,
+    keys: Option<Keys>,
+    rate: Option<RateLimit>,
+    origins: Option<Origins>,
     in_flight: AtomicUsize,
     connections: AtomicUsize,
     draining: AtomicBool,
@@ -57,10 +69,20 @@ impl State {
             headers: Headers::new(config),
             log: AccessLog::new(&config.telemetry),
             metrics: Metrics::new(),
+            spans: Spans::new(config.telemetry.otlp_endpoint.as_deref()),
+            keys: config.access.api_keys_file.as_ref().map(Keys::new),
+            rate: RateLimit::new(&config.access),
+            origins: Origins::new(&config.access.cors_origin),
             in_flight: AtomicUsize::new(0),
             connections: AtomicUsize::new(0),
             draining: AtomicBool::new(false),
         }
+    }
+
+    /// The trace that a request is part of. One begins here if it is to be recorded.
+    fn trace(&self, headers: &HeaderMap) -> Option<Trace> {
+        let given = Trace::of_request(headers, &self.names);
+        given.or_else(|| self.spans.is_some().then(|| Trace::begin(&self.names)))
     }
 
     /// Requests that are being answered.
@@ -93,9 +115,24 @@ impl State {
         self.metrics.text(app)
     }
 
+    /// Reads the keys again, if there are any: says how many there are, or why the old ones stay.
+    pub(super) fn reload(&self) -> Option<Result<usize, String>> {
+        self.keys.as_ref().map(Keys::reload)
+    }
+
     /// What is to be done every few seconds.
     pub(super) fn tidy(&self) {
         self.metrics.tidy();
+        if let Some(rate) = &self.rate {
+            rate.tidy();
+        }
+    }
+
+    /// What is to be done at the end, once no request is under way. May block.
+    pub(super) fn finish(&self) {
+        if let Some(spans) = &self.spans {
+            spans.finish();
+        }
     }
 }
 
@@ -126,7 +163,7 @@ impl Edge {
             uri: request.uri().clone(),
             route: route::of(request.uri().path()),
             id: edge.names.of_request(request.headers()),
-            trace: Trace::of_request(request.headers(), &edge.names),
+            trace: edge.trace(request.headers()),
             peer: self.peer,
             key: OnceLock::new(),
             directions: AtomicUsize::new(0),
@@ -134,8 +171,20 @@ impl Edge {
         });
         let app = app.clone();
         let record = Record::new(app.clone(), Arc::clone(&known));
-        let mut response = self.gate.answer(request, Arc::clone(&known)).await;
-        app.edge().headers.add(&known, response.headers_mut());
+        let edge = app.edge();
+        let mut response = match &edge.origins {
+            None => self.gate.answer(request, Arc::clone(&known)).await,
+            Some(origins) if request.headers().contains_key(header::ORIGIN) => {
+                origins.answer(self.gate, request, Arc::clone(&known)).await
+            }
+            Some(_) => {
+                // A cache may hold it that a page asks later.
+                let mut response = self.gate.answer(request, Arc::clone(&known)).await;
+                response.headers_mut().append(header::VARY, const { HeaderValue::from_static("origin") });
+                response
+            }
+        };
+        edge.headers.add(&known, response.headers_mut());
         record.answered(response)
     }
 }

@@ -85,6 +85,9 @@ impl Drop for Record {
         }
         edge.metrics.answered(&self.known, &self.outcome);
         edge.log.write(&self.known, &self.outcome);
+        if let Some(spans) = &edge.spans {
+            spans.answered(&self.known, &self.outcome);
+        }
     }
 }
 
