@@ -196,6 +196,11 @@ impl Problem {
         Self::internal()
     }
 
+    /// Whether the request was refused because there is too much work.
+    pub(crate) fn is_overload(&self) -> bool {
+        self.kind == Kind::Overloaded
+    }
+
     /// Kind and detail, for the log.
     pub(crate) fn summary(&self) -> String {
         format!("{}: {}", self.kind.parts().0, self.detail)

@@ -25,7 +25,6 @@ pub(crate) struct Health {
     get,
     path = "/livez",
     tag = "operations",
-    security(()),
     responses((status = 200, description = "The process is alive.", body = Health))
 )]
 pub(crate) async fn livez() -> Json<Health> {
@@ -41,7 +40,6 @@ pub(crate) async fn livez() -> Json<Health> {
     get,
     path = "/readyz",
     tag = "operations",
-    security(()),
     responses(
         (status = 200, description = "The service takes requests.", body = Health),
         (status = 503, description = "The service is stopping.", body = Document, content_type = PROBLEM_JSON)

@@ -9,7 +9,7 @@ pub(super) mod health;
 pub(super) mod image_irradiance;
 pub(super) mod plan;
 pub(super) mod radiance;
-mod responses;
+pub(super) mod responses;
 pub(super) mod roughness;
 mod scene;
 mod spike;

@@ -50,6 +50,9 @@ impl Gate {
             }
             Err(closed) => self.problem(closed).into_response(),
         };
+        if open.is_ok() && response.extensions().get().is_some_and(Problem::is_overload) {
+            self.app.edge().metrics.shed_queue.increment(1);
+        }
         let mut response = settle(response, &known);
         if let Err(Closed::Key(refused)) = open {
             let challenge = if refused == Refused::Missing { CHALLENGE } else { CHALLENGE_AGAIN };

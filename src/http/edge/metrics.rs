@@ -56,7 +56,7 @@ pub(super) struct Metrics {
     pub(super) keys_missing: Counter,
     pub(super) keys_wrong: Counter,
     pub(super) shed_in_flight: Counter,
-    shed_queue: Counter,
+    pub(super) shed_queue: Counter,
     in_flight: Gauge,
     waiting: Gauge,
     connections: Gauge,
@@ -124,11 +124,6 @@ impl Metrics {
         if let Some(place) = EvaluatedBy::ALL.iter().position(|one| *one == by) {
             self.directions[place].increment(directions as u64);
         }
-    }
-
-    /// Counts a large request that found no turn.
-    pub(super) fn no_turn(&self) {
-        self.shed_queue.increment(1);
     }
 
     /// The text of `/metrics`.

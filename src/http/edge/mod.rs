@@ -3,6 +3,7 @@
 mod access_log;
 mod cors;
 mod deadline;
+mod document;
 mod gate;
 mod headers;
 mod identity;
@@ -17,6 +18,7 @@ mod settle;
 mod spans;
 
 pub(super) use deadline::Deadline;
+pub(super) use document::complete as complete_document;
 pub(super) use known::Tally;
 pub(super) use settle::not_found;
 
@@ -103,11 +105,6 @@ impl State {
     /// Whether the service was told to stop.
     pub(super) fn is_draining(&self) -> bool {
         self.draining.load(Ordering::Relaxed)
-    }
-
-    /// A large request found no turn.
-    pub(super) fn no_turn(&self) {
-        self.metrics.no_turn();
     }
 
     /// The text of `/metrics`.

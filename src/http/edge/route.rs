@@ -76,6 +76,17 @@ pub(super) fn all() -> &'static [Route] {
     &ROUTES.all
 }
 
+/// The class of a pattern.
+pub(super) fn class(pattern: &str) -> Class {
+    match pattern {
+        "/livez" | "/readyz" => Class::Health,
+        "/metrics" => Class::Metrics,
+        "/" | "/openapi.json" => Class::Open,
+        _ if pattern.starts_with("/docs") || pattern.starts_with("/problems") => Class::Open,
+        _ => Class::Guarded,
+    }
+}
+
 /// The route of a path.
 pub(super) fn of(path: &str) -> &'static Route {
     ROUTES.of(path)
@@ -93,13 +104,6 @@ impl Routes {
                 }
             }
         }
-        let class = |pattern: &str| match pattern {
-            "/livez" | "/readyz" => Class::Health,
-            "/metrics" => Class::Metrics,
-            "/" | "/openapi.json" => Class::Open,
-            _ if pattern.starts_with("/docs") || pattern.starts_with("/problems") => Class::Open,
-            _ => Class::Guarded,
-        };
         let all = patterns.into_iter().enumerate();
         let all =
             all.map(|(index, pattern)| Route { index, class: class(&pattern), pattern }).collect::<Vec<_>>();
