@@ -1,5 +1,6 @@
 //! The service from outside: the real binary over real HTTP.
 
+mod access;
 mod at_once;
 mod bad_input;
 mod caching;
@@ -15,4 +16,5 @@ mod protocol;
 mod radiance;
 mod readme;
 mod server;
+mod telemetry;
 mod tradeoff;

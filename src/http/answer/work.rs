@@ -2,6 +2,7 @@
 
 use super::columns::Stretch;
 use crate::http::app::Limits;
+use crate::http::edge::Tally as Counted;
 use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
@@ -25,10 +26,12 @@ const LEAST_ROWS: usize = 128;
 const MOST_ROWS: usize = 16 << 10;
 
 /// What is asked for.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) struct Work {
-    pub(crate) subject: Subject,
-    pub(crate) over: Over,
+    pub(super) subject: Subject,
+    pub(super) over: Over,
+    /// Where it is counted what was evaluated.
+    pub(super) counted: Option<Counted>,
 }
 
 /// Of what.
@@ -61,6 +64,10 @@ pub(super) enum Model {
 }
 
 impl Work {
+    pub(crate) const fn new(subject: Subject, over: Over) -> Self {
+        Self { subject, over, counted: None }
+    }
+
     pub(super) fn rows(&self) -> usize {
         match &self.over {
             Over::Directions(directions) => directions.count(),
@@ -155,7 +162,11 @@ impl Work {
         };
         Ok(match &curve.model {
             Model::Scene(prepared) => {
-                prepared.stretch(directions, range, is_over).into_parts_after(before).into()
+                let parts = prepared.stretch(directions, range, is_over).into_parts_after(before);
+                if let Some(counted) = &self.counted {
+                    counted.evaluated(&parts.tally);
+                }
+                parts.into()
             }
             Model::Linear { scene, log10 } => {
                 let mut evaluation = scene.evaluate(directions, range, *log10, is_over);
