@@ -4,20 +4,22 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
+use crate::http::answer::{self, Over, Work};
+use crate::http::app::App;
 use crate::http::body::JsonBody;
-use crate::http::compute;
+use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
-use crate::http::encode::{csv, json};
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
-use crate::http::link::{Known, tagged};
-use crate::http::negotiate::{Format, JsonOrCsv};
+use crate::http::link::{Known, linked};
+use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
-use axum::http::header;
-use axum::response::{IntoResponse as _, Response};
+use axum::extract::State;
+use axum::response::Response;
+use std::sync::Arc;
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -47,20 +49,23 @@ object! {
     responses(
         (status = 200, description = "The diagram.", content(
             (Diagram = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         (status = 304, description = "The client has this answer already."),
         GetProblems
     )
 )]
 pub(crate) async fn link(
-    JsonOrCsv(format): JsonOrCsv,
+    State(app): State<App>,
+    Tabular(format): Tabular,
     known: Known,
     deadline: Deadline,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(tagged(&known, format.content_type(), body))
+    let key = format!("{request:?}{format:?}");
+    linked(&known, &key, draw(&app, format, deadline, request)).await
 }
 
 /// A tabulated diagram.
@@ -72,36 +77,34 @@ pub(crate) async fn link(
     responses(
         (status = 200, description = "The diagram.", content(
             (Diagram = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         PostProblems
     )
 )]
 pub(crate) async fn diagram(
-    JsonOrCsv(format): JsonOrCsv,
+    State(app): State<App>,
+    Tabular(format): Tabular,
     deadline: Deadline,
     JsonBody(request): JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, "accept")], body).into_response())
+    draw(&app, format, deadline, request).await
 }
 
-async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Result<Vec<u8>, Problem> {
+async fn draw(
+    app: &App,
+    format: Format,
+    deadline: Deadline,
+    request: DiagramRequest,
+) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
-    let quantity = quantity.unwrap_or(Quantity::Radiance);
-    let output = OutputWire::chosen(output);
-    compute::run(deadline, sweep.rows(), move || {
-        let table = sweep.evaluate(&scene, quantity, output, "").map_err(|error| {
-            tracing::error!(%error, "a checked sweep left its range");
-            Problem::internal()
-        })?;
-        match format {
-            Format::Json => {
-                let diagram = Diagram::new(table, false);
-                json::bytes(&diagram, diagram.size_hint())
-            }
-            Format::Csv => csv::write(&[table], false),
-        }
-    })
-    .await?
+    let work = Work {
+        scene: Arc::new(scene),
+        quantity: quantity.unwrap_or(Quantity::Radiance),
+        output: OutputWire::chosen(output),
+        over: Over::Sweep(Arc::new(sweep)),
+    };
+    answer::respond(app, deadline, None, work, format).await
 }

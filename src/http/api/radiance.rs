@@ -3,21 +3,24 @@
 use super::answer::Answer;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
+use crate::http::answer::{self, Over, Work};
+use crate::http::app::App;
 use crate::http::body::JsonBody;
-use crate::http::compute;
-use crate::http::encode::json;
+use crate::http::encode::rows::Binary;
 use crate::http::input::node::Node;
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::Reader;
 use crate::http::input::values::AnglesWire;
 use crate::http::input::wire::{Schemas, Wire};
-use crate::http::negotiate::JsonOnly;
+use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::{Code, Problem};
 use crate::http::track::Deadline;
 use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
-use crate::reflectance::evaluate::{Output, Quantity, evaluate};
+use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
+use axum::extract::State;
 use axum::response::Response;
+use std::sync::Arc;
 use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::Schema;
 
@@ -126,14 +129,23 @@ object! {
     path = "/v1/radiance",
     tag = "reflection",
     request_body(content = RadianceRequest, description = "The scene and the directions."),
-    responses((status = 200, description = "The radiance in each direction.", body = Answer), PostProblems)
+    responses(
+        (status = 200, description = "The radiance in each direction.", content(
+            (Answer = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        )),
+        PostProblems
+    )
 )]
 pub(crate) async fn radiance(
-    _: JsonOnly,
+    State(app): State<App>,
+    Tabular(format): Tabular,
     deadline: Deadline,
     JsonBody(request): JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(Quantity::Radiance, deadline, request).await
+    answer(&app, Quantity::Radiance, format, deadline, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
@@ -144,28 +156,35 @@ pub(crate) async fn radiance(
     path = "/v1/brdf",
     tag = "reflection",
     request_body(content = RadianceRequest, description = "The scene and the directions."),
-    responses((status = 200, description = "The BRDF in each direction.", body = Answer), PostProblems)
+    responses(
+        (status = 200, description = "The BRDF in each direction.", content(
+            (Answer = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        )),
+        PostProblems
+    )
 )]
 pub(crate) async fn brdf(
-    _: JsonOnly,
+    State(app): State<App>,
+    Tabular(format): Tabular,
     deadline: Deadline,
     JsonBody(request): JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(Quantity::Brdf, deadline, request).await
+    answer(&app, Quantity::Brdf, format, deadline, request).await
 }
 
 async fn answer(
+    app: &App,
     quantity: Quantity,
+    format: Format,
     deadline: Deadline,
     request: RadianceRequest,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
-    let count = directions.count();
-    compute::run(deadline, count, move || {
-        let evaluation = evaluate(&scene, &directions, quantity, OutputWire::chosen(output));
-        let answer = Answer::new(quantity, evaluation);
-        json::response(&answer, answer.size_hint())
-    })
-    .await?
+    let (scene, over) = (Arc::new(scene), Over::Directions(Arc::new(directions)));
+    let work = Work { scene, quantity, output: OutputWire::chosen(output), over };
+    answer::respond(app, deadline, None, work, format).await
 }
