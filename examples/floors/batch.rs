@@ -37,8 +37,7 @@ pub(crate) fn angles(count: usize) -> AngleColumns {
 
 /// As the core takes them.
 pub(crate) fn directions(angles: &AngleColumns) -> Result<Directions, Failure> {
-    let directions =
-        Directions::new(each(&angles.theta_i)?, each(&angles.theta_r)?, each(&angles.phi_r)?);
+    let directions = Directions::new(each(&angles.theta_i)?, each(&angles.theta_r)?, each(&angles.phi_r)?);
     directions.map_err(|errors| format!("{errors:?}").into())
 }
 

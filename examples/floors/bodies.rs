@@ -33,7 +33,10 @@ pub(crate) fn write(directory: &Path, angles: &AngleColumns) -> Result<(), Failu
     stream.write(&batch)?;
     stream.finish()?;
 
-    fs::write(path("f64"), columns.iter().flat_map(|column| column.iter()).flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>())?;
+    fs::write(
+        path("f64"),
+        columns.iter().flat_map(|column| column.iter()).flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>(),
+    )?;
 
     let rows = || (0..count).map(|row| columns.map(|column| column[row]));
     let mut npy = npy_header(count)?;
@@ -69,13 +72,15 @@ fn json(
     Ok(text)
 }
 
-/// Version 1.0 of the format: a structured array of little-endian doubles, one record a direction.
+/// Bytes before the dictionary: magic, version, length.
+const NPY_PREFIX: usize = 10;
+
+/// Version 1.0 of the format: a structured array of little-endian doubles, one record a direction. Padded so that the
+/// data begin at a multiple of 64 bytes.
 fn npy_header(count: usize) -> Result<Vec<u8>, Failure> {
     let fields = NAMES.map(|name| format!("('{name}', '<f8')")).join(", ");
     let mut dictionary = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({count},), }}");
-    // Padded so that the data begin at a multiple of 64 bytes.
-    const PREFIX: usize = 10;
-    while (PREFIX + dictionary.len() + 1) % 64 != 0 {
+    while !(NPY_PREFIX + dictionary.len() + 1).is_multiple_of(64) {
         dictionary.push(' ');
     }
     dictionary.push('\n');

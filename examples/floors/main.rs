@@ -36,6 +36,7 @@ struct Request {
 }
 
 #[derive(Deserialize)]
+#[expect(clippy::struct_field_names, reason = "as the request has them")]
 struct Geometry {
     theta_i_deg: Vec<f64>,
     theta_r_deg: Vec<f64>,
@@ -81,7 +82,8 @@ fn parts(
     if all_digits? != directions.count() || six_decimals? != directions.count() {
         return Err("the bodies are not of this request".into());
     }
-    let evaluated = || evaluate(black_box(scene), black_box(directions), Quantity::Radiance, Output::default());
+    let evaluated =
+        || evaluate(black_box(scene), black_box(directions), Quantity::Radiance, Output::default());
     let (kernel, evaluation) = seconds(evaluated);
     bytes.clear();
     let (encode, encoding) = seconds(|| encoded(&evaluation, bytes));
