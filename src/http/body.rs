@@ -32,7 +32,7 @@ impl<T: Wire + Send + 'static> FromRequest<App> for JsonBody<T> {
         let (mut parts, body) = request.into_parts();
         let Ok(deadline) = Deadline::from_request_parts(&mut parts, app).await;
         let request = Request::from_parts(parts, body);
-        let read = tokio::time::timeout_at(deadline.0, bytes(request, limits));
+        let read = tokio::time::timeout_at(deadline.at, bytes(request, limits));
         let bytes = read.await.unwrap_or_else(|_| {
             let limit = limits.request_time.as_secs_f64();
             Err(Problem::new(Kind::RequestTimeout, format!("the body did not arrive within {limit} s")))

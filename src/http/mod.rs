@@ -1,5 +1,6 @@
 //! The service around the core: HTTP, JSON and nothing of the models.
 
+mod answer;
 mod api;
 mod app;
 mod body;

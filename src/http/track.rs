@@ -14,7 +14,11 @@ use std::time::Instant;
 
 /// When a request has to be answered.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Deadline(pub(super) tokio::time::Instant);
+pub(crate) struct Deadline {
+    pub(crate) at: tokio::time::Instant,
+    /// How long it was at first: for messages.
+    pub(crate) limit: std::time::Duration,
+}
 
 impl FromRequestParts<App> for Deadline {
     type Rejection = Infallible;
@@ -26,7 +30,7 @@ impl FromRequestParts<App> for Deadline {
 
 impl Deadline {
     fn from_now(limits: &Limits) -> Self {
-        Self(tokio::time::Instant::now() + limits.request_time)
+        Self { at: tokio::time::Instant::now() + limits.request_time, limit: limits.request_time }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::beckmann_spizzichino::lanes::{LobeLanes, State};
 use super::directions::Directions;
-use super::evaluate::{Answer, EvaluatedBy};
+use super::evaluate::{EvaluatedBy, Stretch};
 use super::geometry::lanes::{DirectionLanes, Geometries, fill};
 use super::kernel::{InLanes, Kernel};
 use super::numeric::dispatch::InstructionSet;
@@ -43,7 +43,7 @@ impl Block {
         kernel: &Kernel<'_>,
         directions: &Directions,
         range: Range<usize>,
-        answer: &mut Answer<'_>,
+        answer: &mut Stretch,
     ) {
         for first in range.clone().step_by(LANES) {
             let count = (range.end - first).min(LANES);
@@ -77,9 +77,9 @@ impl Block {
         kernel: &Kernel<'_>,
         first: usize,
         count: usize,
-        answer: &mut Answer<'_>,
+        answer: &mut Stretch,
         is_done: impl Fn(&Self, &Kernel<'_>, usize) -> bool,
-        push: impl Fn(&Self, usize, Range<usize>, &mut Answer<'_>),
+        push: impl Fn(&Self, usize, Range<usize>, &mut Stretch),
     ) {
         let mut lane = 0;
         while lane < count {
@@ -101,7 +101,7 @@ impl Block {
         }
     }
 
-    fn push_lobes(&self, first: usize, run: Range<usize>, answer: &mut Answer<'_>) {
+    fn push_lobes(&self, first: usize, run: Range<usize>, answer: &mut Stretch) {
         let lane = run.start;
         let by = |place| EvaluatedBy::Lobe(self.lobe.method(lane + place));
         let values = &self.lobe.value[run.clone()];
@@ -112,7 +112,7 @@ impl Block {
         self.facets.is_dark(lane) || kernel.keeps(self.facets.bound[lane])
     }
 
-    fn push_facets(&self, first: usize, run: Range<usize>, answer: &mut Answer<'_>) {
+    fn push_facets(&self, first: usize, run: Range<usize>, answer: &mut Stretch) {
         let of = |component| match component {
             Component::DiffuseLobe => &self.facets.diffuse[run.clone()],
             Component::SpecularLobe | Component::SpecularSpike => &self.facets.lobe[run.clone()],
@@ -121,7 +121,7 @@ impl Block {
         answer.extend(first, totals, bounds, of, |_| EvaluatedBy::ClosedForm);
     }
 
-    fn direction(&self, kernel: &Kernel<'_>, first: usize, lane: usize, answer: &mut Answer<'_>) {
+    fn direction(&self, kernel: &Kernel<'_>, first: usize, lane: usize, answer: &mut Stretch) {
         let series = kernel.series().and_then(|_| self.lobe.series(lane));
         let reflection = kernel.reflect(&self.geometries.get(lane), series, answer.has_logarithms());
         answer.push(first + lane, &reflection);

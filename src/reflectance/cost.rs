@@ -97,6 +97,20 @@ pub(super) fn direction(scene: &Scene, components: &[Component], lobe: Option<Lo
     DIRECTION + reflectance(scene, components, FRESNEL) + parts
 }
 
+/// The cost of a direction of which nothing is known, the lobe by the method asked for; `alone` where a batch is of no help.
+pub(super) fn expected(scene: &Scene, alone: bool) -> f64 {
+    let p = scene.parameters();
+    let by = match p.accuracy.method {
+        Method::Auto => Method::Uniform,
+        method => method,
+    };
+    let is_summed =
+        p.model == Model::BeckmannSpizzichino && scene.evaluated().contains(&Component::SpecularLobe);
+    let lobe = is_summed.then_some(Lobe { by: EvaluatedBy::Lobe(by), variance: f64::INFINITY });
+    let cost = direction(scene, scene.evaluated(), lobe);
+    if alone { cost + DIRECTION } else { cost }
+}
+
 /// The cost of every component in one direction, the lobe of (47) by its sum.
 pub(super) fn full(scene: &Scene, components: &[Component], lobe: Option<Lobe>) -> f64 {
     let parts = direction(scene, components, None);

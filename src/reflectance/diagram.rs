@@ -135,7 +135,7 @@ impl SweepParts {
             let rows = points.saturating_mul(curves.unwrap_or(1));
             if points == 0 || points > bounds::MAX_SWEEP_POINTS || (points == 1 && from != to) {
                 errors.push(DiagramError::Points { points });
-            } else if rows > bounds::MAX_DIRECTIONS {
+            } else if rows > bounds::MAX_ROWS {
                 errors.push(DiagramError::TooManyRows { rows });
             }
         }
@@ -193,8 +193,28 @@ impl Sweep {
         self.positions.len() * self.at.len()
     }
 
-    /// The directions of one curve.
-    fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
+    /// Which angle runs.
+    pub fn axis(&self) -> SweepAxis {
+        self.axis
+    }
+
+    /// Where it stops, degrees.
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// The fixed angles, degrees: one curve each.
+    pub fn at(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// φ_r, degrees.
+    pub fn phi_r(&self) -> f64 {
+        self.phi_r.get()
+    }
+
+    /// The directions of the curve at one of the fixed angles.
+    pub fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
         let (mut theta_i, mut theta_r) =
             (Vec::with_capacity(self.positions.len()), Vec::with_capacity(self.positions.len()));
         for &position in &self.positions {
@@ -307,8 +327,8 @@ mod tests {
             [DiagramError::Points { points: 90_000_001 }]
         );
         assert_eq!(
-            parts(0.0, 90.0, Division::Points(600_000), &[1.0, 2.0]).errors(),
-            [DiagramError::TooManyRows { rows: 1_200_000 }]
+            parts(0.0, 90.0, Division::Points(1_000_000), &[1.0; 11]).errors(),
+            [DiagramError::TooManyRows { rows: 11_000_000 }]
         );
         assert_eq!(
             parts(0.0, 90.0, Division::Points(1), &[1.0]).errors(),

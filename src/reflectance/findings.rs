@@ -44,7 +44,7 @@ impl Warning {
 pub const LISTED_INDICES: usize = 20;
 
 /// Directions that a warning is about, and the largest value seen.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Concern {
     indices: Vec<usize>,
     count: usize,

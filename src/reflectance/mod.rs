@@ -39,6 +39,7 @@ pub mod scene;
 pub mod shadowing;
 mod source_energy;
 mod strain;
+pub mod stretch;
 pub mod surface;
 pub mod table;
 pub mod torrance_sparrow;

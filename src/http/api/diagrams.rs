@@ -6,13 +6,14 @@ use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
 use crate::http::body::JsonBody;
 use crate::http::compute;
+use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
-use crate::http::encode::{csv, json};
+use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
 use crate::http::link::{Known, tagged};
-use crate::http::negotiate::{Format, JsonOrCsv};
+use crate::http::negotiate::{Format, Tabular, VARY};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
@@ -47,14 +48,16 @@ object! {
     responses(
         (status = 200, description = "The diagram.", content(
             (Diagram = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         (status = 304, description = "The client has this answer already."),
         GetProblems
     )
 )]
 pub(crate) async fn link(
-    JsonOrCsv(format): JsonOrCsv,
+    Tabular(format): Tabular,
     known: Known,
     deadline: Deadline,
     Query(request): Query<DiagramRequest>,
@@ -72,18 +75,20 @@ pub(crate) async fn link(
     responses(
         (status = 200, description = "The diagram.", content(
             (Diagram = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         PostProblems
     )
 )]
 pub(crate) async fn diagram(
-    JsonOrCsv(format): JsonOrCsv,
+    Tabular(format): Tabular,
     deadline: Deadline,
     JsonBody(request): JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
     let body = draw(format, deadline, request).await?;
-    Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, "accept")], body).into_response())
+    Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, VARY)], body).into_response())
 }
 
 async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Result<Vec<u8>, Problem> {
@@ -95,13 +100,11 @@ async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Re
             tracing::error!(%error, "a checked sweep left its range");
             Problem::internal()
         })?;
-        match format {
-            Format::Json => {
-                let diagram = Diagram::new(table, false);
-                json::bytes(&diagram, diagram.size_hint())
-            }
-            Format::Csv => csv::write(&[table], false),
+        if let Some(rows) = format.row_format() {
+            return flat::write(rows, &[table], false);
         }
+        let diagram = Diagram::new(table, false);
+        json::bytes(&diagram, diagram.size_hint())
     })
     .await?
 }

@@ -2,12 +2,13 @@
 
 use super::responses::{GetProblems, list};
 use crate::http::compute;
+use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
-use crate::http::encode::{csv, json};
+use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::{NoQuery, Query};
 use crate::http::link::{Known, tagged};
-use crate::http::negotiate::{Format, JsonOnly, JsonOrCsv};
+use crate::http::negotiate::{Format, JsonOnly, Tabular};
 use crate::http::problem::{Kind, Problem};
 use crate::http::track::Deadline;
 use crate::reflectance::figures::{FIGURES, Figure, find};
@@ -112,7 +113,9 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
     responses(
         (status = 200, description = "The figure.", content(
             (FigureAnswer = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         (status = 304, description = "The client has this answer already."),
         NoFigure,
@@ -120,7 +123,7 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
     )
 )]
 pub(crate) async fn figure(
-    JsonOrCsv(format): JsonOrCsv,
+    Tabular(format): Tabular,
     known: Known,
     deadline: Deadline,
     id: Result<Path<String>, PathRejection>,
@@ -144,16 +147,15 @@ fn draw(figure: &'static Figure, format: Format, log10: bool) -> Result<Vec<u8>,
         tracing::error!(%error, figure = figure.id, "a preset is out of range");
         Problem::internal()
     })?;
-    match format {
-        Format::Csv => csv::write(&panels.into_iter().map(|panel| panel.table).collect::<Vec<_>>(), true),
-        Format::Json => {
-            let panels: Vec<Panel> = panels
-                .into_iter()
-                .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
-                .collect();
-            let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
-            let Figure { id, title, parameters, .. } = *figure;
-            json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
-        }
+    if let Some(rows) = format.row_format() {
+        let tables: Vec<_> = panels.into_iter().map(|panel| panel.table).collect();
+        return flat::write(rows, &tables, true);
     }
+    let panels: Vec<Panel> = panels
+        .into_iter()
+        .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
+        .collect();
+    let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
+    let Figure { id, title, parameters, .. } = *figure;
+    json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
 }

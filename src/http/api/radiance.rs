@@ -3,9 +3,9 @@
 use super::answer::Answer;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
+use crate::http::answer::{self, Over, Work};
+use crate::http::app::App;
 use crate::http::body::JsonBody;
-use crate::http::compute;
-use crate::http::encode::json;
 use crate::http::input::node::Node;
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::Reader;
@@ -15,9 +15,11 @@ use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
 use crate::http::track::Deadline;
 use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
-use crate::reflectance::evaluate::{Output, Quantity, evaluate};
+use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
+use axum::extract::State;
 use axum::response::Response;
+use std::sync::Arc;
 use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::Schema;
 
@@ -130,10 +132,11 @@ object! {
 )]
 pub(crate) async fn radiance(
     _: JsonOnly,
+    State(app): State<App>,
     deadline: Deadline,
     JsonBody(request): JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(Quantity::Radiance, deadline, request).await
+    answer(&app, Quantity::Radiance, deadline, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
@@ -148,24 +151,22 @@ pub(crate) async fn radiance(
 )]
 pub(crate) async fn brdf(
     _: JsonOnly,
+    State(app): State<App>,
     deadline: Deadline,
     JsonBody(request): JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(Quantity::Brdf, deadline, request).await
+    answer(&app, Quantity::Brdf, deadline, request).await
 }
 
 async fn answer(
+    app: &App,
     quantity: Quantity,
     deadline: Deadline,
     request: RadianceRequest,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
-    let count = directions.count();
-    compute::run(deadline, count, move || {
-        let evaluation = evaluate(&scene, &directions, quantity, OutputWire::chosen(output));
-        let answer = Answer::new(quantity, evaluation);
-        json::response(&answer, answer.size_hint())
-    })
-    .await?
+    let (scene, over) = (Arc::new(scene), Over::Directions(Arc::new(directions)));
+    let work = Work { scene, quantity, output: OutputWire::chosen(output), over };
+    answer::respond(app, deadline, None, work).await
 }

@@ -12,7 +12,7 @@ use super::super::scene::{
     Accuracy, Component, Components, Illumination, Model, Scene, SceneParameters, Surface,
 };
 use super::super::shadowing::Shadowing;
-use super::{Answer, Block, Output};
+use super::{Block, Output, Stretch};
 
 struct Random(u64);
 
@@ -137,7 +137,7 @@ fn directions(angles: &[[f64; 3]]) -> Directions {
 /// All numbers of each direction.
 fn numbers(set: InstructionSet, scene: &Scene, kernel: &Kernel<'_>, angles: &[[f64; 3]]) -> Vec<Vec<u64>> {
     let directions = directions(angles);
-    let mut answer = Answer::new(scene, angles.len(), Output::default(), 0.0);
+    let mut answer = Stretch::new(scene, 0, angles.len(), Output::default(), 0.0);
     Block::with(set).evaluate(kernel, &directions, 0..angles.len(), &mut answer);
     let columns = answer.columns;
     (0..angles.len())
