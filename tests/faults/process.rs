@@ -1,6 +1,8 @@
 //! The started binary, and what the system knows about it.
 
 use crate::client::{Answer, Connection};
+use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{BufRead as _, BufReader};
 use std::path::PathBuf;
@@ -110,15 +112,28 @@ impl Service {
         fs::read_dir(format!("/proc/{}/fd", self.process.id())).expect("it runs").count()
     }
 
-    /// Processor time of its threads, by whether they are those for large work.
-    pub(crate) fn processor_time(&self) -> Duration {
+    /// Processor time of each of its threads so far.
+    pub(crate) fn work(&self) -> Work {
         let folder = format!("/proc/{}/task", self.process.id());
-        let nanoseconds = fs::read_dir(folder).expect("it runs").flatten().filter_map(|task| {
+        let threads = fs::read_dir(folder).expect("it runs").flatten().filter_map(|task| {
             // A thread may end while it is looked at.
             let times = fs::read_to_string(task.path().join("schedstat")).ok()?;
-            times.split_whitespace().next()?.parse::<u64>().ok()
+            let nanoseconds = times.split_whitespace().next()?.parse().ok()?;
+            Some((task.file_name(), Duration::from_nanos(nanoseconds)))
         });
-        Duration::from_nanos(nanoseconds.sum())
+        Work(threads.collect())
+    }
+}
+
+/// Processor time by thread.
+pub(crate) struct Work(BTreeMap<OsString, Duration>);
+
+impl Work {
+    /// What was done since an earlier look, by the threads that still are.
+    pub(crate) fn since(&self, before: &Self) -> Duration {
+        let times = self.0.iter();
+        let before = |thread| before.0.get(thread).copied().unwrap_or_default();
+        times.map(|(thread, time)| time.saturating_sub(before(thread))).sum()
     }
 }
 

@@ -9,19 +9,19 @@ use std::time::Duration;
 /// Processor time that the service may take after its client left: ten milliseconds on each of two processors.
 const ALLOWED: Duration = Duration::from_millis(20);
 
-/// The processor time that it takes from now on, and that another half second adds to it.
+/// The processor time that it takes in the next half second.
 fn taken_from_now(service: &Service) -> Duration {
-    let before = service.processor_time();
+    let before = service.work();
     thread::sleep(Duration::from_millis(500));
-    service.processor_time().saturating_sub(before)
+    service.work().since(&before)
 }
 
 /// Sends a request, leaves as soon as work has begun, and says what the service still took.
 fn leave(service: &Service, request: &[u8], after: Duration) -> Duration {
-    let before = service.processor_time();
+    let before = service.work();
     let mut connection = service.connect();
     connection.send(request).expect("it reads");
-    until(Duration::from_secs(20), "work begins", || service.processor_time() - before > after);
+    until(Duration::from_secs(20), "work begins", || service.work().since(&before) > after);
     drop(connection);
     taken_from_now(service)
 }
