@@ -1,5 +1,6 @@
 //! Answers that are pure functions of their link: an entity tag, and how long they keep.
 
+use super::problem::Problem;
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
@@ -30,6 +31,27 @@ fn tags(headers: &HeaderMap) -> Vec<String> {
         .flat_map(|value| value.split(','))
         .map(|tag| tag.trim().trim_start_matches("W/").to_owned())
         .collect()
+}
+
+/// An answer whose entity tag follows from its link: it is not made where the client has it already.
+pub(crate) async fn linked(
+    known: &Known,
+    key: &str,
+    answer: impl Future<Output = Result<Response, Problem>>,
+) -> Result<Response, Problem> {
+    let tag = entity_tag(format!("{} {key}", env!("CARGO_PKG_VERSION")).as_bytes());
+    let mut response = if known.0.iter().any(|k| *k == tag || k == "*") {
+        StatusCode::NOT_MODIFIED.into_response()
+    } else {
+        answer.await?
+    };
+    let headers = response.headers_mut();
+    headers.insert(header::CACHE_CONTROL, CACHE_CONTROL);
+    headers.insert(header::VARY, HeaderValue::from_static("accept"));
+    if let Ok(tag) = HeaderValue::from_str(&tag) {
+        headers.insert(header::ETAG, tag);
+    }
+    Ok(response)
 }
 
 /// A body with its entity tag.

@@ -4,16 +4,21 @@
 mod columns;
 mod json;
 mod output;
+mod table;
 mod text;
 mod work;
 
-pub(crate) use work::{Over, Work};
+#[cfg(test)]
+mod tests;
+
+pub(crate) use work::{Over, Subject, Work};
 
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;
+use crate::http::negotiate::{Format, VARY};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
-use axum::http::header;
+use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse as _, Response};
 use std::sync::Arc;
 
@@ -26,20 +31,38 @@ pub(crate) async fn respond(
     deadline: Deadline,
     turn: Option<Turn>,
     work: Work,
+    format: Format,
 ) -> Result<Response, Problem> {
+    work.check(app.limits()).map_err(Problem::invalid)?;
     let nanoseconds = work.nanoseconds_a_row() * work.rows() as f64;
-    if nanoseconds <= SMALL {
-        let body = json::whole(&work)?;
-        return Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response());
-    }
-    // The estimate is good to a factor of two.
-    if nanoseconds > 2e9 * app.limits().cpu_time.as_secs_f64() {
-        return Err(output::cpu_time(app));
-    }
-    let turn = match turn {
-        Some(turn) => turn,
-        None => app.admission().turn().await?,
+    let content_type = format.content_type();
+    let mut response = if nanoseconds <= SMALL {
+        let body = match format.row_format() {
+            None => json::whole(&work)?,
+            Some(rows) => table::whole(&work, rows)?,
+        };
+        ([(header::CONTENT_TYPE, content_type)], body).into_response()
+    } else {
+        // The estimate is good to a factor of two.
+        if nanoseconds > 2e9 * app.limits().cpu_time.as_secs_f64() {
+            return Err(output::cpu_time(app));
+        }
+        let turn = match turn {
+            Some(turn) => turn,
+            None => app.admission().turn().await?,
+        };
+        let work = Arc::new(work);
+        match format.row_format() {
+            None => {
+                output::begin(app, deadline, turn, content_type, move |output| json::stream(work, output))
+                    .await
+            }
+            Some(rows) => {
+                let make = move |output| table::stream(work, rows, output);
+                output::begin(app, deadline, turn, content_type, make).await
+            }
+        }?
     };
-    let work = Arc::new(work);
-    output::begin(app, deadline, turn, "application/json", move |output| json::stream(work, output)).await
+    response.headers_mut().insert(header::VARY, HeaderValue::from_static(VARY));
+    Ok(response)
 }

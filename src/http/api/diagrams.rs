@@ -4,21 +4,22 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
+use crate::http::answer::{self, Over, Subject, Work};
+use crate::http::app::App;
 use crate::http::body::JsonBody;
-use crate::http::compute;
+use crate::http::compute::admission::Turn;
 use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
-use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
-use crate::http::link::{Known, tagged};
-use crate::http::negotiate::{Format, Tabular, VARY};
+use crate::http::link::{Known, linked};
+use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
-use axum::http::header;
-use axum::response::{IntoResponse as _, Response};
+use axum::extract::State;
+use axum::response::Response;
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -57,13 +58,14 @@ object! {
     )
 )]
 pub(crate) async fn link(
+    State(app): State<App>,
     Tabular(format): Tabular,
     known: Known,
     deadline: Deadline,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(tagged(&known, format.content_type(), body))
+    let key = format!("{request:?}{format:?}");
+    linked(&known, &key, draw(&app, format, deadline, None, request)).await
 }
 
 /// A tabulated diagram.
@@ -83,28 +85,27 @@ pub(crate) async fn link(
     )
 )]
 pub(crate) async fn diagram(
+    State(app): State<App>,
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<DiagramRequest>,
+    JsonBody { value: request, turn }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, VARY)], body).into_response())
+    draw(&app, format, deadline, turn, request).await
 }
 
-async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Result<Vec<u8>, Problem> {
+async fn draw(
+    app: &App,
+    format: Format,
+    deadline: Deadline,
+    turn: Option<Turn>,
+    request: DiagramRequest,
+) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
-    let quantity = quantity.unwrap_or(Quantity::Radiance);
-    let output = OutputWire::chosen(output);
-    compute::run(deadline, sweep.rows(), move || {
-        let table = sweep.evaluate(&scene, quantity, output, "").map_err(|error| {
-            tracing::error!(%error, "a checked sweep left its range");
-            Problem::internal()
-        })?;
-        if let Some(rows) = format.row_format() {
-            return flat::write(rows, &[table], false);
-        }
-        let diagram = Diagram::new(table, false);
-        json::bytes(&diagram, diagram.size_hint())
-    })
-    .await?
+    let subject = Subject::Scene {
+        scene: Box::new(scene),
+        quantity: quantity.unwrap_or(Quantity::Radiance),
+        output: OutputWire::chosen(output),
+    };
+    let work = Work { subject, over: Over::Sweep(Box::new(sweep)) };
+    answer::respond(app, deadline, turn, work, format).await
 }

@@ -11,7 +11,12 @@ pub(super) fn head(head: &Head) -> Vec<u8> {
     let mut line = Vec::new();
     for heading in &head.columns {
         let unit = heading.unit.replace(' ', "_").replace('^', "");
-        let name = if unit.is_empty() { heading.name.to_owned() } else { format!("{}_{unit}", heading.name) };
+        // The name of an angle says its unit.
+        let name = if unit.is_empty() || heading.name.ends_with("_deg") {
+            heading.name.to_owned()
+        } else {
+            format!("{}_{unit}", heading.name)
+        };
         text(&name, &mut line);
         line.push(b',');
     }

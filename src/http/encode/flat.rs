@@ -34,9 +34,9 @@ fn head(tables: &[Table], labelled: bool) -> Head {
         columns.extend(text("label", curves(tables).map(|curve| curve.label.chars().count()).max()));
     }
     if let Some(table) = tables.first() {
-        columns.extend(table.fixed.map(|name| number(name, "")));
-        columns.push(number(table.axis.name, ""));
-        columns.extend(table.fixed.map(|_| number("phi_r_deg", "")));
+        columns.extend(table.fixed.map(|name| number(name, "degrees")));
+        columns.push(number(table.axis.name, table.axis.unit));
+        columns.extend(table.fixed.map(|_| number("phi_r_deg", "degrees")));
     }
     for column in curves(tables).flat_map(|curve| &curve.columns) {
         if columns.iter().all(|known| known.name != column.name) {
