@@ -7,6 +7,7 @@ mod body;
 mod coding;
 mod compute;
 mod connection;
+mod decode;
 mod encode;
 mod input;
 mod link;

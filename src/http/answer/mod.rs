@@ -8,7 +8,10 @@ mod table;
 mod text;
 mod work;
 
-pub(crate) use work::{Over, Work};
+#[cfg(test)]
+mod tests;
+
+pub(crate) use work::{Over, Subject, Work};
 
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;

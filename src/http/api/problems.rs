@@ -59,6 +59,10 @@ const fn about(kind: Kind) -> &'static str {
             "The query is not application/x-www-form-urlencoded UTF-8, or has more parameters than any request \
              needs."
         }
+        Kind::MalformedColumns => {
+            "The body is not a CSV file, an Arrow IPC stream or a NumPy array as its media type says. The detail says \
+             where it stops to be."
+        }
         Kind::BadRequest => "The request does not follow HTTP, or a path or header cannot be read.",
         Kind::BodyUnreadable => {
             "The body ended before its announced length, or is not whole and valid in the content coding that it \

@@ -2,6 +2,7 @@
 
 use super::Coding;
 use crate::http::app::App;
+use crate::http::compute::admission::Turn;
 use crate::http::compute::job::Job;
 use crate::http::problem::{Kind, Problem};
 use axum::body::Bytes;
@@ -45,13 +46,21 @@ fn unsupported(what: &str) -> Problem {
     Problem::new(Kind::UnsupportedCoding, detail)
 }
 
-/// A body expanded. What is small is expanded at once, the rest on the pool for large work, in pieces; it stops when
-/// the client leaves.
-pub(crate) async fn body(app: &App, coding: Coding, packed: Bytes) -> Result<Bytes, Problem> {
+/// A body expanded. What is small is expanded at once, the rest in turn, on the pool for large work, in pieces; it stops
+/// when the client leaves.
+pub(crate) async fn body(
+    app: &App,
+    coding: Coding,
+    packed: Bytes,
+    turn: &mut Option<Turn>,
+) -> Result<Bytes, Problem> {
     let limit = app.limits().expanded_body_bytes;
     let mut expander = Expander::new(coding, packed, limit)?;
     if expander.expand(INLINE)? {
         return Ok(expander.out.into());
+    }
+    if turn.is_none() {
+        *turn = Some(app.admission().turn().await?);
     }
     let (job, _abandon) = Job::new(app.limits().cpu_time);
     loop {
