@@ -117,7 +117,7 @@ async fn receive(request: Request, app: &App) -> Result<Received, Problem> {
     let mut bytes = incoming.bytes(&parts.headers).await?;
     let mut turn = incoming.turn;
     if let Some(coding) = coding {
-        bytes = expand::body(app, coding, bytes, &mut turn).await?;
+        bytes = expand::body(app, deadline, &mut turn, coding, bytes).await?;
     }
     Ok(Received { parts, bytes, turn, deadline })
 }

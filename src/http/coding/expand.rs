@@ -4,7 +4,9 @@ use super::Coding;
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;
 use crate::http::compute::job::Job;
+use crate::http::compute::too_slow;
 use crate::http::problem::{Kind, Problem};
+use crate::http::track::Deadline;
 use axum::body::Bytes;
 use axum::http::{HeaderMap, header};
 use brotli::reader::StandardAlloc;
@@ -13,12 +15,14 @@ use bytes::Buf as _;
 use bytes::buf::Reader;
 use flate2::bufread::MultiGzDecoder;
 use std::io::{self, Read};
+use tokio::time::timeout_at;
 use zstd::stream::read::Decoder as ZstdDecoder;
 
 /// Bytes that are expanded in one piece of work: less than a millisecond.
 const PIECE: usize = 256 << 10;
-/// Bytes that are expanded where they are: most bodies are no larger, and a bomb gets no further.
-const INLINE: usize = 32 << 10;
+/// Bytes that are expanded where they are: as many as are read of a body before it has to wait for its turn. A bomb
+/// gets no further.
+const INLINE: usize = 64 << 10;
 /// 8 MiB, the largest window of zstd over HTTP (RFC 9659): a frame may claim 2 GiB.
 const ZSTD_LOG_WINDOW: u32 = 23;
 
@@ -46,13 +50,14 @@ fn unsupported(what: &str) -> Problem {
     Problem::new(Kind::UnsupportedCoding, detail)
 }
 
-/// A body expanded. What is small is expanded at once, the rest in turn, on the pool for large work, in pieces; it stops
-/// when the client leaves.
+/// A body expanded. What is small is expanded at once; the rest in turn, on the pool for large work, in pieces, and
+/// no further when the client leaves.
 pub(crate) async fn body(
     app: &App,
+    deadline: Deadline,
+    turn: &mut Option<Turn>,
     coding: Coding,
     packed: Bytes,
-    turn: &mut Option<Turn>,
 ) -> Result<Bytes, Problem> {
     let limit = app.limits().expanded_body_bytes;
     let mut expander = Expander::new(coding, packed, limit)?;
@@ -62,6 +67,10 @@ pub(crate) async fn body(
     if turn.is_none() {
         *turn = Some(app.admission().turn().await?);
     }
+    timeout_at(deadline.at, in_pieces(app, expander)).await.unwrap_or_else(|_| Err(too_slow(deadline)))
+}
+
+async fn in_pieces(app: &App, mut expander: Expander) -> Result<Bytes, Problem> {
     let (job, _abandon) = Job::new(app.limits().cpu_time);
     loop {
         let piece = move || expander.expand(PIECE).map(|is_whole| (is_whole, expander));

@@ -240,7 +240,9 @@ macro_rules! object {
             }
 
             fn is_given(_: &'static str, fields: &$crate::http::input::reader::Fields) -> bool {
-                fields.has_any(&<Self as $crate::http::input::object::WireObject>::flat_names())
+                // Each query asks for them, and what makes them makes their schemas too.
+                static NAMES: std::sync::OnceLock<Vec<&'static str>> = std::sync::OnceLock::new();
+                fields.has_any(NAMES.get_or_init(<Self as $crate::http::input::object::WireObject>::flat_names))
             }
 
             fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::Schema> {

@@ -45,7 +45,9 @@ pub(crate) fn read_beside<T: WireObject>(
 ) -> Result<T, Problem> {
     let mut fields = Fields::with_columns(object(query)?, columns);
     let value = T::take(&mut fields, &mut reader);
-    fields.finish(&mut reader, &T::flat_names());
+    if !fields.is_spent() {
+        fields.finish(&mut reader, &T::flat_names());
+    }
     reader.finish(value).map_err(Problem::invalid)
 }
 

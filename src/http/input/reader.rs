@@ -200,6 +200,11 @@ impl Fields {
         self.has_any(names) || names.iter().any(|name| self.columns.has(name))
     }
 
+    /// Whether there is nothing left to refuse.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.object.fields.is_empty() && self.object.duplicates.is_empty()
+    }
+
     /// Whether any of these is given.
     pub(crate) fn has_any(&self, names: &[&str]) -> bool {
         self.object.fields.iter().any(|(name, _)| names.contains(&name.as_str()))
