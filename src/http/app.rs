@@ -2,6 +2,7 @@
 
 use super::compute::admission::Admission;
 use super::compute::pool::Pool;
+use super::edge;
 use super::transport::doors::Doors;
 use crate::config::Config;
 use std::sync::Arc;
@@ -16,6 +17,7 @@ struct Shared {
     pool: Pool,
     admission: Admission,
     doors: Arc<Doors>,
+    edge: edge::State,
 }
 
 /// What a request may be and take. Each has a flag, a place in `/v1/limits` and in the message of the error it causes.
@@ -72,6 +74,7 @@ impl App {
             pool: Pool::new(config.capacity.pool_threads),
             admission: Admission::new(&limits),
             doors: Doors::new(limits.connections),
+            edge: edge::State::new(config),
         }))
     }
 
@@ -81,6 +84,10 @@ impl App {
 
     pub(crate) fn pool(&self) -> &Pool {
         &self.0.pool
+    }
+
+    pub(super) fn edge(&self) -> &edge::State {
+        &self.0.edge
     }
 
     pub(crate) fn admission(&self) -> &Admission {

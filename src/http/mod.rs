@@ -1,9 +1,13 @@
 //! The service around the core: HTTP, JSON and nothing of the models.
 
+mod answer;
 mod api;
 mod app;
 mod body;
+mod coding;
 mod compute;
+mod decode;
+mod edge;
 mod encode;
 mod input;
 mod link;
@@ -11,7 +15,6 @@ mod negotiate;
 mod openapi;
 mod problem;
 mod routes;
-mod track;
 mod transport;
 
 pub use openapi::openapi_json;
@@ -20,22 +23,17 @@ pub use transport::{Service, Signals};
 use crate::config::Config;
 use app::App;
 use axum::Router;
-use axum::middleware::from_fn_with_state;
+use edge::Edge;
 use std::net::SocketAddr;
-use tower_http::catch_panic::CatchPanicLayer;
 
 /// The whole service as one `tower` service.
 pub fn router(config: &Config) -> Router {
-    service(App::new(config))
+    Router::new().fallback_service(service(&App::new(config)))
 }
 
-fn service(app: App) -> Router {
-    // As a service of its own: a layer on the routes themselves would not see the `Allow` that axum adds
-    // outside of them.
-    Router::new()
-        .fallback_service(routes::routes(app.clone()))
-        .layer(CatchPanicLayer::custom(track::on_panic))
-        .layer(from_fn_with_state(app, track::track))
+/// The same, to be given the client of each connection.
+fn service(app: &App) -> Edge {
+    Edge::new(app.clone(), routes::routes(app.clone()))
 }
 
 /// What the program says when it is ready.

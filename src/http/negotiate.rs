@@ -1,32 +1,70 @@
 //! Content negotiation by the `Accept` header, RFC 9110 section 12.5.1.
 
+use super::encode::rows::RowFormat;
 use super::problem::{Kind, Problem};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
+
+/// The request headers that choose among the representations of a tabular answer: the value of `Vary`.
+pub(crate) const VARY: &str = "accept";
 
 /// A representation that an answer can take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
     Json,
     Csv,
+    Arrow,
+    Npy,
 }
 
 impl Format {
+    /// What every tabular answer is offered as, the preferred one first.
+    pub(crate) const TABULAR: [Self; 4] = [Self::Json, Self::Csv, Self::Arrow, Self::Npy];
+
     /// The media type without parameters.
     pub(crate) const fn media_type(self) -> &'static str {
         match self {
             Self::Json => "application/json",
             Self::Csv => "text/csv",
+            Self::Arrow => "application/vnd.apache.arrow.stream",
+            Self::Npy => "application/x-npy",
         }
     }
 
     /// The value of `Content-Type`.
     pub(crate) const fn content_type(self) -> &'static str {
         match self {
-            Self::Json => "application/json",
             Self::Csv => "text/csv; charset=utf-8; header=present",
+            other => other.media_type(),
         }
+    }
+
+    /// Other names of the media type: NumPy's format has no registered one.
+    const fn aliases(self) -> &'static [&'static str] {
+        match self {
+            Self::Npy => &["application/npy", "application/x-numpy"],
+            _ => &[],
+        }
+    }
+
+    /// How its rows are written; JSON answers are not made of rows.
+    pub(crate) const fn row_format(self) -> Option<RowFormat> {
+        match self {
+            Self::Json => None,
+            Self::Csv => Some(RowFormat::Csv),
+            Self::Arrow => Some(RowFormat::Arrow),
+            Self::Npy => Some(RowFormat::Npy),
+        }
+    }
+
+    /// Which format a media type names, in lower case and without parameters.
+    pub(crate) fn named(essence: &str) -> Option<Self> {
+        Self::TABULAR.into_iter().find(|format| format.names().any(|name| name == essence))
+    }
+
+    fn names(self) -> impl Iterator<Item = &'static str> {
+        std::iter::once(self.media_type()).chain(self.aliases().iter().copied())
     }
 }
 
@@ -42,13 +80,13 @@ impl<S: Sync> FromRequestParts<S> for JsonOnly {
 }
 
 /// What a table is answered as.
-pub(crate) struct JsonOrCsv(pub(crate) Format);
+pub(crate) struct Tabular(pub(crate) Format);
 
-impl<S: Sync> FromRequestParts<S> for JsonOrCsv {
+impl<S: Sync> FromRequestParts<S> for Tabular {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
-        negotiate(&parts.headers, &[Format::Json, Format::Csv]).map(Self)
+        negotiate(&parts.headers, &Format::TABULAR).map(Self)
     }
 }
 
@@ -111,9 +149,11 @@ impl Range {
     }
 
     fn matches(&self, format: Format) -> bool {
-        let (kind, subtype) = format.media_type().split_once('/').unwrap_or_default();
-        (self.kind == "*" && self.subtype == "*")
-            || (self.kind == kind && (self.subtype == "*" || self.subtype == subtype))
+        format.names().any(|name| {
+            let (kind, subtype) = name.split_once('/').unwrap_or_default();
+            (self.kind == "*" && self.subtype == "*")
+                || (self.kind == kind && (self.subtype == "*" || self.subtype == subtype))
+        })
     }
 
     fn specificity(&self) -> u8 {

@@ -8,9 +8,11 @@ use super::quantity::{
 };
 use super::scene::Scene;
 use super::table::{Column, Curve, Table};
+use core::hash::{Hash, Hasher};
+use core::ops::Range;
 
 /// Which zenith angle runs; the other is fixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SweepAxis {
     /// θ_r for a fixed source, as in figures 11 to 21.
     ThetaR,
@@ -45,7 +47,7 @@ impl SweepAxis {
 }
 
 /// How the sweep is divided.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Division {
     /// From the start in steps of this many degrees, while the end is not passed.
     Step(SweepStep),
@@ -86,6 +88,9 @@ pub enum DiagramError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     axis: SweepAxis,
+    /// What the positions follow from.
+    ends: (SweepAngle, SweepAngle),
+    division: Division,
     positions: Vec<f64>,
     at: Vec<f64>,
     phi_r: Azimuth,
@@ -135,7 +140,7 @@ impl SweepParts {
             let rows = points.saturating_mul(curves.unwrap_or(1));
             if points == 0 || points > bounds::MAX_SWEEP_POINTS || (points == 1 && from != to) {
                 errors.push(DiagramError::Points { points });
-            } else if rows > bounds::MAX_DIRECTIONS {
+            } else if rows > bounds::MAX_ROWS {
                 errors.push(DiagramError::TooManyRows { rows });
             }
         }
@@ -146,6 +151,16 @@ impl SweepParts {
     pub fn complete(self) -> Option<Sweep> {
         let at = self.at?.into_iter().collect::<Option<_>>()?;
         Sweep::new(self.axis?, (self.from?, self.to?), self.division?, at, self.phi_r?).ok()
+    }
+}
+
+/// By what it was made of, which is less than its positions.
+impl Hash for Sweep {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.axis, self.ends, self.division, self.phi_r).hash(state);
+        for at in &self.at {
+            state.write_u64(at.to_bits());
+        }
     }
 }
 
@@ -183,9 +198,10 @@ impl Sweep {
         at: Vec<f64>,
         phi_r: Azimuth,
     ) -> Self {
+        let ends = (from, to);
         let (from, to) = (from.get(), to.get());
         let points = division.points(from, to);
-        Self { axis, positions: division.positions(from, to, points), at, phi_r }
+        Self { axis, ends, division, positions: division.positions(from, to, points), at, phi_r }
     }
 
     /// Rows of the table: points times fixed angles.
@@ -193,11 +209,30 @@ impl Sweep {
         self.positions.len() * self.at.len()
     }
 
-    /// The directions of one curve.
-    fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
-        let (mut theta_i, mut theta_r) =
-            (Vec::with_capacity(self.positions.len()), Vec::with_capacity(self.positions.len()));
-        for &position in &self.positions {
+    /// Which angle runs.
+    pub fn axis(&self) -> SweepAxis {
+        self.axis
+    }
+
+    /// Where it stops, degrees.
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// The fixed angles, degrees: one curve each.
+    pub fn at(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// φ_r, degrees.
+    pub fn phi_r(&self) -> f64 {
+        self.phi_r.get()
+    }
+
+    /// Some of the directions of the curve at one of the fixed angles: those of a range of the positions.
+    pub fn directions(&self, fixed: f64, range: Range<usize>) -> Result<Directions, OutOfBounds> {
+        let (mut theta_i, mut theta_r) = (Vec::with_capacity(range.len()), Vec::with_capacity(range.len()));
+        for &position in &self.positions[range] {
             let (source, viewer) = match self.axis {
                 SweepAxis::ThetaR => (fixed, position),
                 SweepAxis::ThetaI => (position, fixed),
@@ -220,7 +255,8 @@ impl Sweep {
     ) -> Result<Table, OutOfBounds> {
         let mut curves = Vec::with_capacity(self.at.len());
         for &at in &self.at {
-            let evaluation = evaluate(scene, &self.directions(at)?, quantity, output);
+            let evaluation =
+                evaluate(scene, &self.directions(at, 0..self.positions.len())?, quantity, output);
             curves.push(Curve::of(evaluation, label.to_owned(), at, quantity.unit()));
         }
         Ok(Table {
@@ -307,8 +343,8 @@ mod tests {
             [DiagramError::Points { points: 90_000_001 }]
         );
         assert_eq!(
-            parts(0.0, 90.0, Division::Points(600_000), &[1.0, 2.0]).errors(),
-            [DiagramError::TooManyRows { rows: 1_200_000 }]
+            parts(0.0, 90.0, Division::Points(1_000_000), &[1.0; 11]).errors(),
+            [DiagramError::TooManyRows { rows: 11_000_000 }]
         );
         assert_eq!(
             parts(0.0, 90.0, Division::Points(1), &[1.0]).errors(),

@@ -61,6 +61,13 @@ impl<A: Copy> Angles<A> {
         }
     }
 
+    fn column(&self, range: Range<usize>, get: impl Fn(A) -> f64) -> AngleColumn {
+        match self {
+            Self::One(angle) => AngleColumn::One(get(*angle)),
+            Self::Each(angles) => AngleColumn::Each(angles[range].iter().map(|&angle| get(angle)).collect()),
+        }
+    }
+
     fn select(&self, indices: &[usize]) -> Self {
         match self {
             Self::One(angle) => Self::One(*angle),
@@ -94,6 +101,15 @@ impl<A: Copy> Angles<A> {
             }
         }
     }
+}
+
+/// One of the angles of some directions, degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AngleColumn {
+    /// The same in all.
+    One(f64),
+    /// One for each.
+    Each(Vec<f64>),
 }
 
 /// Which of the three angles.
@@ -270,6 +286,15 @@ impl Directions {
         let ends = [theta_i[0] - zenith[1], theta_i[1] - zenith[0]];
         let difference = if difference[0] <= difference[1] { difference } else { ends };
         Extents { theta_i, theta_r, zenith, difference, phi_r: self.phi_r.extent(range, Azimuth::get) }
+    }
+
+    /// θ_i, θ_r and φ_r of a range of the directions, degrees.
+    pub fn columns(&self, range: Range<usize>) -> [AngleColumn; 3] {
+        [
+            self.theta_i.column(range.clone(), SourceZenith::get),
+            self.theta_r.column(range.clone(), ViewerZenith::get),
+            self.phi_r.column(range, Azimuth::get),
+        ]
     }
 
     /// All geometries in order.

@@ -20,7 +20,7 @@ pub use super::kernel::{EvaluatedBy, Quantity};
 pub use super::stretch::{Parts, Stretch, Tally};
 
 /// What to add to the answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Output {
     /// Decimal logarithms of total and components, right also where the value underflows.
     pub log10: bool,
@@ -114,11 +114,6 @@ impl Prepared {
         &self.warnings
     }
 
-    /// What a direction costs, in vectorised exponentials of some 3 ns, good to a factor of two.
-    pub fn cost(&self) -> f64 {
-        cost::expected(&self.scene, self.output.log10)
-    }
-
     /// Evaluates a range of the directions that it was made ready for; `is_over` is asked every few tens of microseconds
     /// whether to stop, and what is missing then is missing at the end.
     pub fn stretch(
@@ -129,12 +124,12 @@ impl Prepared {
     ) -> Stretch {
         let kernel = Kernel::new(&self.scene, self.quantity, self.share);
         let mut answer = self.room(range.start, range.len());
-        let mut block = Block::new();
         for first in range.clone().step_by(PART) {
             if is_over() {
                 break;
             }
-            block.evaluate(&kernel, directions, first..range.end.min(first + PART), &mut answer);
+            let part = first..range.end.min(first + PART);
+            Block::lent(|block| block.evaluate(&kernel, directions, part, &mut answer));
         }
         answer
     }
@@ -153,17 +148,17 @@ impl Prepared {
         }
         let mut whole = self.room(0, count);
         let kernel = Kernel::new(&self.scene, self.quantity, self.share);
-        let part = |block: &mut Block, first: usize| {
+        let part = |first: usize| {
             let end = count.min(first + PART);
             let mut answer = self.room(first, end - first);
-            block.evaluate(&kernel, directions, first..end, &mut answer);
+            Block::lent(|block| block.evaluate(&kernel, directions, first..end, &mut answer));
             answer
         };
         // A few parts a thread at a time, so that what is not yet in its place stays small.
         let at_once = 8 * PART * threads;
         for first in (0..count).step_by(at_once) {
             let starts: Vec<usize> = (first..count.min(first + at_once)).step_by(PART).collect();
-            let parts: Vec<Stretch> = starts.into_par_iter().map_init(Block::new, part).collect();
+            let parts: Vec<Stretch> = starts.into_par_iter().map(part).collect();
             for part in parts {
                 whole.append(part);
             }
@@ -189,6 +184,12 @@ impl Prepared {
             diagnostics: parts.diagnostics,
         }
     }
+}
+
+/// What a direction costs before it is known what it requires, in vectorised exponentials of some 3 ns: good to a factor of
+/// two.
+pub fn expected_cost(scene: &Scene, output: Output) -> f64 {
+    cost::expected(scene, output.log10)
 }
 
 /// Evaluates a scene in every direction; many directions on all threads of rayon's current pool.

@@ -4,20 +4,19 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
+use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonBody;
-use crate::http::compute;
+use crate::http::compute::admission::Turn;
+use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
-use crate::http::encode::{csv, json};
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
-use crate::http::link::{Known, tagged};
-use crate::http::negotiate::{Format, JsonOrCsv};
+use crate::http::link::{Known, key, linked};
 use crate::http::problem::Problem;
-use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
-use axum::http::header;
-use axum::response::{IntoResponse as _, Response};
+use axum::response::Response;
+use std::hash::{Hash, Hasher};
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -35,6 +34,14 @@ object! {
     }
 }
 
+/// By what it asks for: the same where a default is given and where it is left out.
+impl Hash for DiagramRequest {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let quantity = self.quantity.unwrap_or(Quantity::Radiance).name();
+        (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene.0).hash(state);
+    }
+}
+
 /// A tabulated diagram, as a link.
 ///
 /// The fields of the POST request, flattened into the query: `medium=perfect_conductor` or `n` and `k`,
@@ -47,20 +54,21 @@ object! {
     responses(
         (status = 200, description = "The diagram.", content(
             (Diagram = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         (status = 304, description = "The client has this answer already."),
         GetProblems
     )
 )]
 pub(crate) async fn link(
-    JsonOrCsv(format): JsonOrCsv,
+    call: Call,
     known: Known,
-    deadline: Deadline,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(tagged(&known, format.content_type(), body))
+    let key = key(&("/v1/diagrams", call.format.media_type(), &request));
+    linked(&known, &key, draw(call, None, request)).await
 }
 
 /// A tabulated diagram.
@@ -72,36 +80,27 @@ pub(crate) async fn link(
     responses(
         (status = 200, description = "The diagram.", content(
             (Diagram = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         PostProblems
     )
 )]
 pub(crate) async fn diagram(
-    JsonOrCsv(format): JsonOrCsv,
-    deadline: Deadline,
-    JsonBody(request): JsonBody<DiagramRequest>,
+    call: Call,
+    JsonBody { value: request, turn }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let body = draw(format, deadline, request).await?;
-    Ok(([(header::CONTENT_TYPE, format.content_type()), (header::VARY, "accept")], body).into_response())
+    draw(call, turn, request).await
 }
 
-async fn draw(format: Format, deadline: Deadline, request: DiagramRequest) -> Result<Vec<u8>, Problem> {
+async fn draw(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
-    let quantity = quantity.unwrap_or(Quantity::Radiance);
-    let output = OutputWire::chosen(output);
-    compute::run(deadline, sweep.rows(), move || {
-        let table = sweep.evaluate(&scene, quantity, output, "").map_err(|error| {
-            tracing::error!(%error, "a checked sweep left its range");
-            Problem::internal()
-        })?;
-        match format {
-            Format::Json => {
-                let diagram = Diagram::new(table, false);
-                json::bytes(&diagram, diagram.size_hint())
-            }
-            Format::Csv => csv::write(&[table], false),
-        }
-    })
-    .await?
+    let subject = Subject::Scene {
+        scene: Box::new(scene),
+        quantity: quantity.unwrap_or(Quantity::Radiance),
+        output: OutputWire::chosen(output),
+    };
+    let work = Work::new(subject, Over::Sweep(Box::new(sweep)));
+    answer::respond(call, turn, work).await
 }

@@ -2,18 +2,20 @@
 
 use super::responses::{GetProblems, list};
 use crate::http::compute;
+use crate::http::edge::Deadline;
+use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
-use crate::http::encode::{csv, json};
+use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::{NoQuery, Query};
-use crate::http::link::{Known, tagged};
-use crate::http::negotiate::{Format, JsonOnly, JsonOrCsv};
+use crate::http::link::{Known, linked};
+use crate::http::negotiate::{Format, JsonOnly, Tabular};
 use crate::http::problem::{Kind, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::figures::{FIGURES, Figure, find};
 use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
-use axum::response::Response;
+use axum::http::header;
+use axum::response::{IntoResponse as _, Response};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use utoipa::openapi::{RefOr, Response as Documented};
@@ -93,14 +95,16 @@ impl IntoResponses for NoFigure {
     )
 )]
 pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Response, Problem> {
-    let figures = FIGURES.iter().map(|figure| FigureSummary {
-        id: figure.id,
-        title: figure.title,
-        parameters: figure.parameters,
-        href: format!("/v1/figures/{}", figure.id),
-    });
-    let body = json::bytes(&FigureList { figures: figures.collect() }, 16 << 10)?;
-    Ok(tagged(&known, Format::Json.content_type(), body))
+    linked(&known, &"/v1/figures", async {
+        let figures = FIGURES.iter().map(|figure| FigureSummary {
+            id: figure.id,
+            title: figure.title,
+            parameters: figure.parameters,
+            href: format!("/v1/figures/{}", figure.id),
+        });
+        json::response(&FigureList { figures: figures.collect() }, 16 << 10)
+    })
+    .await
 }
 
 /// One figure of the report, computed from its caption's parameters.
@@ -112,7 +116,9 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
     responses(
         (status = 200, description = "The figure.", content(
             (FigureAnswer = "application/json"),
-            (String = "text/csv")
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
         )),
         (status = 304, description = "The client has this answer already."),
         NoFigure,
@@ -120,7 +126,7 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
     )
 )]
 pub(crate) async fn figure(
-    JsonOrCsv(format): JsonOrCsv,
+    Tabular(format): Tabular,
     known: Known,
     deadline: Deadline,
     id: Result<Path<String>, PathRejection>,
@@ -129,9 +135,12 @@ pub(crate) async fn figure(
     // An id that is not UTF-8 is the id of no figure.
     let figure = id.ok().and_then(|Path(id)| find(&id)).ok_or_else(no_figure)?;
     let log10 = query.log10.unwrap_or(false);
-    // Every figure has hundreds of directions at least: none is worth holding up connections for.
-    let body = compute::blocking(deadline, move || draw(figure, format, log10)).await??;
-    Ok(tagged(&known, format.content_type(), body))
+    linked(&known, &("/v1/figures", figure.id, format.media_type(), log10), async {
+        // Every figure has hundreds of directions at least: none is worth holding up connections for.
+        let body = compute::blocking(deadline, move || draw(figure, format, log10)).await??;
+        Ok(([(header::CONTENT_TYPE, format.content_type())], body).into_response())
+    })
+    .await
 }
 
 fn no_figure() -> Problem {
@@ -144,16 +153,15 @@ fn draw(figure: &'static Figure, format: Format, log10: bool) -> Result<Vec<u8>,
         tracing::error!(%error, figure = figure.id, "a preset is out of range");
         Problem::internal()
     })?;
-    match format {
-        Format::Csv => csv::write(&panels.into_iter().map(|panel| panel.table).collect::<Vec<_>>(), true),
-        Format::Json => {
-            let panels: Vec<Panel> = panels
-                .into_iter()
-                .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
-                .collect();
-            let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
-            let Figure { id, title, parameters, .. } = *figure;
-            json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
-        }
+    if let Some(rows) = format.row_format() {
+        let tables: Vec<_> = panels.into_iter().map(|panel| panel.table).collect();
+        return flat::write(rows, &tables, true);
     }
+    let panels: Vec<Panel> = panels
+        .into_iter()
+        .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
+        .collect();
+    let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
+    let Figure { id, title, parameters, .. } = *figure;
+    json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
 }

@@ -6,10 +6,10 @@ use super::responses::PostProblems;
 use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
+use crate::http::edge::Deadline;
 use crate::http::encode::json;
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::Problem;
-use crate::http::track::Deadline;
 use crate::reflectance::plan::{MethodRange, Plan};
 use crate::reflectance::scene::Component;
 use axum::response::Response;
@@ -142,7 +142,7 @@ impl From<Plan> for PlanAnswer {
 pub(crate) async fn plan(
     _: JsonOnly,
     deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), scene: CheckedScene(scene), .. } = request;
     compute::run(deadline, directions.count(), move || {

@@ -3,22 +3,24 @@
 use super::answer::Answer;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
-use crate::http::body::JsonBody;
-use crate::http::compute;
-use crate::http::encode::json;
+use crate::http::answer::{self, Call, Over, Subject, Work};
+use crate::http::body::JsonOrColumns;
+use crate::http::compute::admission::Turn;
+use crate::http::decode::OBJECT;
+use crate::http::encode::rows::Binary;
 use crate::http::input::node::Node;
-use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::Reader;
+use crate::http::input::object::{WireObject, documented_parameters, object};
+use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::AnglesWire;
-use crate::http::input::wire::{Schemas, Wire};
-use crate::http::negotiate::JsonOnly;
+use crate::http::input::wire::{Parameter, Schemas, Wire};
 use crate::http::problem::{Code, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
-use crate::reflectance::evaluate::{Output, Quantity, evaluate};
+use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
 use axum::response::Response;
+use utoipa::IntoParams;
 use utoipa::openapi::RefOr;
+use utoipa::openapi::path::{Parameter as DocumentedParameter, ParameterIn};
 use utoipa::openapi::schema::Schema;
 
 object! {
@@ -60,7 +62,32 @@ pub(crate) struct CheckedDirections(pub(crate) Directions);
 
 impl Wire for CheckedDirections {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let wire = GeometryWire::read(node, reader)?;
+        GeometryWire::read(node, reader)?.check(reader)
+    }
+
+    fn read_flat(_: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let wire = GeometryWire::take(fields, reader)?;
+        // All that has a length is a column.
+        reader.in_body(|reader| reader.within(OBJECT, |reader| wire.check(reader)))
+    }
+
+    fn schema() -> RefOr<Schema> {
+        GeometryWire::reference()
+    }
+
+    fn collect(schemas: &mut Schemas) {
+        GeometryWire::gather(schemas);
+    }
+
+    fn parameters(_: &'static str, _: &str, required: bool) -> Vec<Parameter> {
+        GeometryWire::query_parameters(required)
+    }
+}
+
+impl GeometryWire {
+    /// The directions, if the arrays have one length.
+    fn check(self, reader: &mut Reader) -> Option<CheckedDirections> {
+        let wire = self;
         let lengths = [
             wire.theta_i_deg.as_ref().and_then(|angles| angles.length),
             wire.theta_r_deg.as_ref().and_then(|angles| angles.length),
@@ -74,15 +101,8 @@ impl Wire for CheckedDirections {
             None => Angles::One(Azimuth::new(0.0).ok()?),
         };
         // What is wrong with the lengths was just noted.
-        Directions::new(wire.theta_i_deg?.angles?, wire.theta_r_deg?.angles?, phi_r).ok().map(Self)
-    }
-
-    fn schema() -> RefOr<Schema> {
-        GeometryWire::reference()
-    }
-
-    fn collect(schemas: &mut Schemas) {
-        GeometryWire::gather(schemas);
+        let directions = Directions::new(wire.theta_i_deg?.angles?, wire.theta_r_deg?.angles?, phi_r);
+        directions.ok().map(CheckedDirections)
     }
 }
 
@@ -118,54 +138,98 @@ object! {
     }
 }
 
+/// The query parameters of a request with columns. A JSON body has none of them, so that none is required of all
+/// requests.
+pub(crate) struct BesideColumns;
+
+impl IntoParams for BesideColumns {
+    fn into_params(_: impl Fn() -> Option<ParameterIn>) -> Vec<DocumentedParameter> {
+        documented_parameters(RadianceRequest::query_parameters(false))
+    }
+}
+
 /// Radiance L_r (2) by component.
 ///
 /// Up to 1,000,000 directions in one request. The unit is that of `irradiance` per steradian.
+///
+/// The directions can also come as columns `theta_i_deg`, `theta_r_deg`, `phi_r_deg` (in any order) of CSV with a line
+/// of names, of an Arrow IPC stream (floats or integers, uncompressed, without nulls), or of a structured `.npy` array of
+/// one dimension. The rest of the request then stands in the query, flattened as for `GET /v1/diagrams`, and so does an
+/// angle that is the same in all directions.
 #[utoipa::path(
     post,
     path = "/v1/radiance",
     tag = "reflection",
-    request_body(content = RadianceRequest, description = "The scene and the directions."),
-    responses((status = 200, description = "The radiance in each direction.", body = Answer), PostProblems)
+    params(BesideColumns),
+    request_body(
+        content(
+            (RadianceRequest = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        ),
+        description = "The scene and the directions; or directions alone, as columns."
+    ),
+    responses(
+        (status = 200, description = "The radiance in each direction.", content(
+            (Answer = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        )),
+        PostProblems
+    )
 )]
 pub(crate) async fn radiance(
-    _: JsonOnly,
-    deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    call: Call,
+    JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(Quantity::Radiance, deadline, request).await
+    answer(call, Quantity::Radiance, turn, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
 ///
-/// The same request as `/v1/radiance`; I_s = irradiance · cos θ_i is the irradiance of the surface.
+/// The same request as `/v1/radiance`, as JSON or as columns; I_s = irradiance · cos θ_i is the irradiance of the surface.
 #[utoipa::path(
     post,
     path = "/v1/brdf",
     tag = "reflection",
-    request_body(content = RadianceRequest, description = "The scene and the directions."),
-    responses((status = 200, description = "The BRDF in each direction.", body = Answer), PostProblems)
+    params(BesideColumns),
+    request_body(
+        content(
+            (RadianceRequest = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        ),
+        description = "The scene and the directions; or directions alone, as columns."
+    ),
+    responses(
+        (status = 200, description = "The BRDF in each direction.", content(
+            (Answer = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        )),
+        PostProblems
+    )
 )]
 pub(crate) async fn brdf(
-    _: JsonOnly,
-    deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    call: Call,
+    JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(Quantity::Brdf, deadline, request).await
+    answer(call, Quantity::Brdf, turn, request).await
 }
 
 async fn answer(
+    call: Call,
     quantity: Quantity,
-    deadline: Deadline,
+    turn: Option<Turn>,
     request: RadianceRequest,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
-    let count = directions.count();
-    compute::run(deadline, count, move || {
-        let evaluation = evaluate(&scene, &directions, quantity, OutputWire::chosen(output));
-        let answer = Answer::new(quantity, evaluation);
-        json::response(&answer, answer.size_hint())
-    })
-    .await?
+    let subject = Subject::Scene { scene: Box::new(scene), quantity, output: OutputWire::chosen(output) };
+    let work = Work::new(subject, Over::Directions(Box::new(directions)));
+    answer::respond(call, turn, work).await
 }

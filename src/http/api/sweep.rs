@@ -5,7 +5,7 @@ use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::List;
 use crate::http::input::wire::{Count, Parameter, Schemas, is_given, named};
 use crate::http::problem::Code;
-use crate::reflectance::bounds::{MAX_CURVES, MAX_DIRECTIONS, MAX_SWEEP_POINTS};
+use crate::reflectance::bounds::{MAX_CURVES, MAX_ROWS, MAX_SWEEP_POINTS};
 use crate::reflectance::diagram::{DiagramError, Division, Sweep, SweepAxis, SweepParts};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SweepAngle, SweepStep, ViewerZenith};
 use utoipa::openapi::schema::ObjectBuilder;
@@ -114,7 +114,7 @@ fn note(error: &DiagramError, points_field: &'static str, reader: &mut Reader) {
         }
         DiagramError::TooManyRows { rows } => {
             let detail =
-                format!("points times fixed angles is {rows}: at most {MAX_DIRECTIONS} are answered at once");
+                format!("points times fixed angles is {rows}: at most {MAX_ROWS} are answered at once");
             (points_field, Code::TooMany, detail)
         }
     };

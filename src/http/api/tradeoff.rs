@@ -5,10 +5,10 @@ use super::responses::PostProblems;
 use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
+use crate::http::edge::Deadline;
 use crate::http::encode::json;
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::Problem;
-use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::tradeoff::{Row, Tradeoff, measure};
@@ -144,7 +144,7 @@ impl TradeoffAnswer {
 pub(crate) async fn tradeoff(
     _: JsonOnly,
     deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;

@@ -4,19 +4,26 @@ pub(crate) mod admission;
 pub(crate) mod job;
 pub(crate) mod pool;
 
+use super::edge::Deadline;
 use super::problem::{Kind, Problem};
-use super::track::Deadline;
 use tokio::sync::{Semaphore, SemaphorePermit};
 
 /// Directions that are evaluated without a change of thread, which costs as much as dozens of them.
 const SMALL: usize = 1000;
 
-fn too_slow() -> Problem {
-    Problem::new(Kind::TooSlow, "the time limit of a request passed; ask for fewer directions")
+/// What a request is told whose answer did not begin in time.
+pub(crate) fn too_slow(deadline: Deadline) -> Problem {
+    let limit = deadline.limit.as_secs_f64();
+    Problem::new(
+        Kind::TooSlow,
+        format!(
+            "the answer did not begin within {limit} s, the limit of a request; ask for fewer directions"
+        ),
+    )
 }
 
 fn passed(deadline: Deadline) -> bool {
-    tokio::time::Instant::now() >= deadline.0
+    tokio::time::Instant::now() >= deadline.at
 }
 
 /// Does work of so many directions.
@@ -28,7 +35,7 @@ pub(super) async fn run<T: Send + 'static>(
     if directions > SMALL {
         blocking(deadline, work).await
     } else if passed(deadline) {
-        Err(too_slow())
+        Err(too_slow(deadline))
     } else {
         Ok(work())
     }
@@ -39,11 +46,11 @@ pub(super) async fn turn(
     deadline: Deadline,
     turns: &'static Semaphore,
 ) -> Result<SemaphorePermit<'static>, Problem> {
-    match tokio::time::timeout_at(deadline.0, turns.acquire()).await {
+    match tokio::time::timeout_at(deadline.at, turns.acquire()).await {
         Ok(Ok(permit)) => Ok(permit),
         // Nobody closes them.
         Ok(Err(_)) => Err(Problem::internal()),
-        Err(_) => Err(too_slow()),
+        Err(_) => Err(too_slow(deadline)),
     }
 }
 
@@ -56,13 +63,13 @@ pub(super) async fn blocking<T: Send + 'static>(
         pool::lower_priority();
         (!passed(deadline)).then(work)
     };
-    match tokio::time::timeout_at(deadline.0, tokio::task::spawn_blocking(work)).await {
+    match tokio::time::timeout_at(deadline.at, tokio::task::spawn_blocking(work)).await {
         Ok(Ok(Some(value))) => Ok(value),
         Ok(Err(error)) => {
             tracing::error!(%error, "work did not finish");
             Err(Problem::internal())
         }
-        Ok(Ok(None)) | Err(_) => Err(too_slow()),
+        Ok(Ok(None)) | Err(_) => Err(too_slow(deadline)),
     }
 }
 
@@ -87,7 +94,8 @@ mod tests {
                 let begun = Arc::clone(begun);
                 move || begun.store(true, Ordering::SeqCst)
             };
-            let soon = Deadline(Instant::now() + Duration::from_millis(20));
+            let limit = Duration::from_millis(20);
+            let soon = Deadline { at: Instant::now() + limit, limit };
             assert!(blocking(soon, work(&begun)).await.is_err());
             assert!(run(soon, 1, work(&begun)).await.is_err());
             release.send(()).unwrap();

@@ -42,6 +42,11 @@ impl Pool {
         }
     }
 
+    /// How many pieces are worked on at a time.
+    pub(crate) fn width(&self) -> usize {
+        self.threads.as_ref().map_or(1, ThreadPool::current_num_threads)
+    }
+
     /// Does one piece of a job's work.
     pub(crate) async fn run<T: Send + 'static>(
         &self,

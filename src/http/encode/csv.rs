@@ -1,95 +1,129 @@
-//! Tables as CSV: tidy, one row a point, units in the header.
+//! Tables as CSV: RFC 4180, tidy, units in the header. A value that is not a number is an empty field.
 
+use super::rows::{Cells, Head, Rows, unfit};
 use crate::http::problem::Problem;
-use crate::reflectance::table::Table;
-use csv::{Terminator, Writer, WriterBuilder};
 
-/// Tables of one kind, one below the other. `labelled` adds a column that tells curves apart which differ by more
-/// than the fixed angle. A value that is not a number is an empty field, as is one that another table has.
-pub(crate) fn write(tables: &[Table], labelled: bool) -> Result<Vec<u8>, Problem> {
-    rows(tables, labelled).map_err(|error| Problem::unwritten(&error))
+/// Bytes that a number takes at most: sign, 17 digits, point, exponent; and its comma.
+const WIDEST: usize = 25;
+
+/// The line of names: `total_W_m-2_sr-1`.
+pub(super) fn head(head: &Head) -> Vec<u8> {
+    let mut line = Vec::new();
+    for heading in &head.columns {
+        let unit = heading.unit.replace(' ', "_").replace('^', "");
+        // The name of an angle says its unit.
+        let name = if unit.is_empty() || heading.name.ends_with("_deg") {
+            heading.name.to_owned()
+        } else {
+            format!("{}_{unit}", heading.name)
+        };
+        text(&name, &mut line);
+        line.push(b',');
+    }
+    end(&mut line);
+    line
 }
 
-fn rows(tables: &[Table], labelled: bool) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = WriterBuilder::new().terminator(Terminator::CRLF).from_writer(Vec::new());
-    let columns = columns(tables);
-    write_header(&mut writer, tables, &columns, labelled)?;
-    let mut digits = Vec::with_capacity(32);
-    for table in tables {
-        for curve in &table.curves {
-            let present: Vec<Option<&[f64]>> = columns
-                .iter()
-                .map(|(name, _)| curve.columns.iter().find(|c| c.name == *name).map(|c| c.values.as_slice()))
-                .collect();
-            for (row, &position) in table.axis.values.iter().enumerate() {
-                if labelled {
-                    writer.write_field(&curve.label)?;
-                }
-                if table.fixed.is_some() {
-                    number(&mut writer, &mut digits, curve.at_deg)?;
-                }
-                number(&mut writer, &mut digits, Some(position))?;
-                if table.fixed.is_some() {
-                    number(&mut writer, &mut digits, Some(table.phi_r_deg))?;
-                }
-                for values in &present {
-                    number(&mut writer, &mut digits, values.and_then(|values| values.get(row).copied()))?;
-                }
-                if let Some(method) = &curve.method {
-                    writer.write_field(method.get(row).map_or("", |method| method.name()))?;
-                }
-                writer.write_record(None::<&[u8]>)?;
+/// A column whose repeated cell is written once.
+enum Column<'a> {
+    Numbers(&'a [f64]),
+    Names(&'a [&'static str]),
+    Same(Vec<u8>),
+}
+
+pub(super) fn rows(rows: &Rows, out: &mut Vec<u8>) -> Result<(), Problem> {
+    let mut columns = Vec::with_capacity(rows.columns.len());
+    for cells in &rows.columns {
+        let mut same = Vec::new();
+        columns.push(match *cells {
+            Cells::Numbers(numbers) if numbers.len() == rows.count => Column::Numbers(numbers),
+            Cells::Names(names) if names.len() == rows.count => Column::Names(names),
+            Cells::Numbers(_) | Cells::Names(_) => return Err(unfit()),
+            Cells::Number(value) => {
+                number(value, &mut same)?;
+                Column::Same(same)
             }
-        }
+            Cells::Name(name) => {
+                text(name, &mut same);
+                Column::Same(same)
+            }
+            Cells::Absent => Column::Same(same),
+        });
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    out.reserve(rows.count * (columns.len() * WIDEST + 1));
+    for row in 0..rows.count {
+        for column in &columns {
+            match column {
+                Column::Numbers(numbers) => number(numbers[row], out)?,
+                Column::Names(names) => text(names[row], out),
+                Column::Same(bytes) => out.extend_from_slice(bytes),
+            }
+            out.push(b',');
+        }
+        end(out);
+    }
+    Ok(())
 }
 
-/// Name and unit of every column, in the order in which they first appear.
-fn columns(tables: &[Table]) -> Vec<(&'static str, &'static str)> {
-    let mut columns = Vec::new();
-    for column in tables.iter().flat_map(|table| &table.curves).flat_map(|curve| &curve.columns) {
-        if !columns.contains(&(column.name, column.unit)) {
-            columns.push((column.name, column.unit));
-        }
+/// Ends a line in the place of its last comma.
+fn end(line: &mut Vec<u8>) {
+    if line.last() == Some(&b',') {
+        line.pop();
     }
-    columns
-}
-
-fn write_header(
-    writer: &mut Writer<Vec<u8>>,
-    tables: &[Table],
-    columns: &[(&str, &str)],
-    labelled: bool,
-) -> Result<(), csv::Error> {
-    if labelled {
-        writer.write_field("label")?;
-    }
-    if let Some(table) = tables.first() {
-        if let Some(fixed) = table.fixed {
-            writer.write_field(fixed)?;
-        }
-        writer.write_field(table.axis.name)?;
-        if table.fixed.is_some() {
-            writer.write_field("phi_r_deg")?;
-        }
-    }
-    for (name, unit) in columns {
-        let unit = unit.replace(' ', "_").replace('^', "");
-        writer.write_field(if unit.is_empty() { (*name).to_owned() } else { format!("{name}_{unit}") })?;
-    }
-    if tables.iter().flat_map(|table| &table.curves).any(|curve| curve.method.is_some()) {
-        writer.write_field("method")?;
-    }
-    writer.write_record(None::<&[u8]>)
+    line.extend_from_slice(b"\r\n");
 }
 
 /// The shortest digits that read back as the same number, as in JSON.
-fn number(writer: &mut Writer<Vec<u8>>, digits: &mut Vec<u8>, value: Option<f64>) -> Result<(), csv::Error> {
-    digits.clear();
-    if let Some(value) = value.filter(|value| value.is_finite()) {
-        serde_json::to_writer(&mut *digits, &value)
-            .map_err(|error| csv::Error::from(std::io::Error::from(error)))?;
+fn number(value: f64, out: &mut Vec<u8>) -> Result<(), Problem> {
+    if value.is_finite() {
+        serde_json::to_writer(out, &value).map_err(|error| Problem::unwritten(&error))?;
     }
-    writer.write_field(&digits)
+    Ok(())
+}
+
+/// A text, in quotes where it needs them.
+fn text(text: &str, out: &mut Vec<u8>) {
+    if text.contains([',', '"', '\r', '\n']) {
+        out.push(b'"');
+        out.extend_from_slice(text.replace('"', "\"\"").as_bytes());
+        out.push(b'"');
+    } else {
+        out.extend_from_slice(text.as_bytes());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{head, rows};
+    use crate::http::encode::rows::{Cells, Head, Heading, Kind, Rows};
+
+    #[test]
+    fn rows_are_what_rfc_4180_says() {
+        let columns = vec![
+            Heading { name: "label", unit: "", kind: Kind::Text { longest: 10 } },
+            Heading { name: "total", unit: "W m^-2 sr^-1", kind: Kind::Number },
+            Heading { name: "bound", unit: "", kind: Kind::Number },
+            Heading { name: "method", unit: "", kind: Kind::Text { longest: 7 } },
+        ];
+        let table = Head { columns, rows: 3, notes: Vec::new() };
+        assert_eq!(head(&table), b"label,total_W_m-2_sr-1,bound,method\r\n");
+        let mut out = b"before".to_vec();
+        let columns = vec![
+            Cells::Name("a \"b\", c"),
+            Cells::Numbers(&[0.1, f64::NAN, -1e-300]),
+            Cells::Absent,
+            Cells::Names(&["uniform", "", "series"]),
+        ];
+        rows(&Rows { count: 3, columns }, &mut out).unwrap();
+        let expected = "before\"a \"\"b\"\", c\",0.1,,uniform\r\n\
+            \"a \"\"b\"\", c\",,,\r\n\
+            \"a \"\"b\"\", c\",-1e-300,,series\r\n";
+        assert_eq!(str::from_utf8(&out).unwrap(), expected);
+        let short = Rows { count: 2, columns: vec![Cells::Numbers(&[1.0])] };
+        assert!(rows(&short, &mut out).is_err());
+        // Of a line of one empty field nothing is left but its end.
+        out.clear();
+        rows(&Rows { count: 2, columns: vec![Cells::Number(f64::INFINITY)] }, &mut out).unwrap();
+        assert_eq!(out, b"\r\n\r\n");
+    }
 }

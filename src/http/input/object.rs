@@ -106,9 +106,9 @@ pub(crate) fn described(schema: RefOr<Schema>, description: &str) -> RefOr<Schem
     }
 }
 
-/// The query parameters of an object, for the document.
-pub(crate) fn documented_parameters<T: WireObject>() -> Vec<path::Parameter> {
-    T::query_parameters(true)
+/// Query parameters, for the document.
+pub(crate) fn documented_parameters(parameters: Vec<Parameter>) -> Vec<path::Parameter> {
+    parameters
         .into_iter()
         .map(|parameter| {
             let list = match &parameter.schema {
@@ -240,7 +240,9 @@ macro_rules! object {
             }
 
             fn is_given(_: &'static str, fields: &$crate::http::input::reader::Fields) -> bool {
-                fields.has_any(&<Self as $crate::http::input::object::WireObject>::flat_names())
+                // Each query asks for them, and what makes them makes their schemas too.
+                static NAMES: std::sync::OnceLock<Vec<&'static str>> = std::sync::OnceLock::new();
+                fields.has_any(NAMES.get_or_init(<Self as $crate::http::input::object::WireObject>::flat_names))
             }
 
             fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::Schema> {
@@ -266,7 +268,8 @@ macro_rules! object {
             fn into_params(
                 _: impl Fn() -> Option<utoipa::openapi::path::ParameterIn>,
             ) -> Vec<utoipa::openapi::path::Parameter> {
-                $crate::http::input::object::documented_parameters::<Self>()
+                let parameters = <Self as $crate::http::input::object::WireObject>::query_parameters(true);
+                $crate::http::input::object::documented_parameters(parameters)
             }
         }
 

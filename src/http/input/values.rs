@@ -6,8 +6,9 @@ use super::reader::{ElementErrors, Fields, Reader};
 use super::wire::{
     Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, text_number,
 };
+use crate::http::decode::OBJECT;
 use crate::http::problem::Code;
-use crate::reflectance::bounds::MAX_DIRECTIONS;
+use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
 use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::numeric::lobe_series::Method;
@@ -34,10 +35,11 @@ pub(crate) struct AnglesWire<Q> {
 }
 
 impl<Q: Quantity> Wire for AnglesWire<Q> {
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
             Node::Array(_) => {
-                let numbers = many::<Q>(node, MAX_DIRECTIONS, reader)?;
+                let numbers = many::<Q>(node, reader.most_directions(), reader)?;
                 let length = Some(numbers.len());
                 let each: Option<Vec<Q>> = numbers.into_iter().map(|number| Q::new(number).ok()).collect();
                 Some(Self { length, angles: each.map(Angles::Each) })
@@ -51,8 +53,36 @@ impl<Q: Quantity> Wire for AnglesWire<Q> {
         }
     }
 
+    /// A column of the body, or one number in the query.
+    fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let Some(column) = fields.columns().take(name) else {
+            if fields.has_any(&[name]) {
+                return fields.take_named(reader, name);
+            }
+            let detail = "required: a column of the body, or one number here";
+            return reader.within(name, |reader| reader.fail(Code::Required, detail));
+        };
+        fields.exclude(reader, &[name], "the column of this name in the body");
+        fields.forget(&[name]);
+        let read = |reader: &mut Reader| {
+            reader.within(OBJECT, |reader| {
+                reader.within(name, |reader| Self::read(Node::Array(column), reader))
+            })
+        };
+        reader.in_body(read)
+    }
+
+    fn is_given(name: &'static str, fields: &Fields) -> bool {
+        fields.has_any_or_column(&[name])
+    }
+
     fn schema() -> RefOr<Schema> {
         OneOfBuilder::new().item(Q::schema()).item(list_schema(Q::schema(), MAX_DIRECTIONS)).into()
+    }
+
+    fn parameters(name: &'static str, description: &str, _: bool) -> Vec<Parameter> {
+        let description = format!("{description} Unless the body has a column of this name.");
+        vec![Parameter { name, description, required: false, schema: Q::schema(), bounds: Some(Q::BOUNDS) }]
     }
 }
 
@@ -68,6 +98,7 @@ pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Option<Q>>);
 
 impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
     const REPEATABLE: bool = true;
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let node = if reader.is_flat() { split(node) } else { node };
@@ -224,7 +255,7 @@ impl Wire for Medium {
     fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
         let schema = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA)).into();
         let description = format!("{description} Or n and k.");
-        let mut parameters = vec![Parameter { name, description, required, schema }];
+        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(IndexWire::query_parameters(false));
         parameters
     }
@@ -331,7 +362,7 @@ impl Wire for Polarization {
         let schema = named_schema::<NamedPolarization>();
         let description =
             format!("{description} Or `parallel` and `perpendicular`, two shares that add up to 1.");
-        let mut parameters = vec![Parameter { name, description, required, schema }];
+        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(MixWire::query_parameters(false));
         parameters
     }

@@ -9,13 +9,12 @@ use super::stream::{Stream, Wire};
 use super::tls::{HTTP_2, Tls};
 use super::watch::{Phase, Times, Watch};
 use crate::http::app::App;
-use axum::Router;
+use crate::http::edge::Edge;
 use axum::extract::Request;
 use hyper::body::Incoming;
 use hyper::server::conn::{http1, http2};
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
-use hyper_util::service::TowerToHyperService;
 use std::io;
 use std::net::SocketAddr;
 use std::pin::pin;
@@ -48,7 +47,7 @@ const LINGER: Duration = Duration::from_secs(2);
 pub(super) struct Server {
     app: App,
     doors: Arc<Doors>,
-    router: TowerToHyperService<Router>,
+    edge: Edge,
     tls: Option<Arc<Tls>>,
     times: Times,
     http1: http1::Builder,
@@ -56,7 +55,7 @@ pub(super) struct Server {
 }
 
 impl Server {
-    pub(super) fn new(app: App, router: Router, tls: Option<Arc<Tls>>) -> Self {
+    pub(super) fn new(app: App, edge: Edge, tls: Option<Arc<Tls>>) -> Self {
         let limits = *app.limits();
         let head = usize::try_from(limits.head_bytes).unwrap_or(usize::MAX);
         let mut http1 = http1::Builder::new();
@@ -73,7 +72,7 @@ impl Server {
             .keep_alive_interval(limits.stall_time)
             .keep_alive_timeout(limits.stall_time);
         let (doors, times) = (Arc::clone(app.doors()), Times::of(&limits));
-        Self { app, doors, router: TowerToHyperService::new(router), tls, times, http1, http2 }
+        Self { app, doors, edge, tls, times, http1, http2 }
     }
 
     pub(super) fn doors(&self) -> &Arc<Doors> {
@@ -95,7 +94,7 @@ impl Server {
         };
         tracing::trace!(%peer, ?first, "a connection begins");
         // On the heap: a connection that waits is then as small as it can be.
-        Box::pin(self.begun(socket, first, activity)).await;
+        Box::pin(self.begun(socket, first, peer, activity)).await;
         drop(inside);
     }
 
@@ -103,7 +102,7 @@ impl Server {
         Watch { activity, doors: &self.doors, times: self.times }
     }
 
-    async fn begun(&self, mut socket: TcpStream, first: First, activity: Arc<Activity>) {
+    async fn begun(&self, mut socket: TcpStream, first: First, peer: SocketAddr, activity: Arc<Activity>) {
         let (stream, protocol) = match (&self.tls, first) {
             (Some(tls), First::Tls) => {
                 let accept = tls.acceptor().accept(Wire::new(socket, Arc::clone(&activity)));
@@ -129,7 +128,7 @@ impl Server {
             (None, _) => (Stream::plain(Wire::new(socket, Arc::clone(&activity))), Protocol::Http1),
         };
         let service = Arc::new(Service {
-            router: self.router.clone(),
+            edge: self.edge.of(peer),
             doors: Arc::clone(&self.doors),
             limits: *self.app.limits(),
             activity,

@@ -6,12 +6,11 @@ use super::answer::Answer;
 use super::doors::Doors;
 use super::received::Received;
 use crate::http::app::Limits;
-use axum::Router;
+use crate::http::edge::Edge;
+use axum::body::Body;
 use axum::extract::Request;
 use axum::http::{HeaderValue, Response, header};
 use hyper::body::{Body as _, Incoming};
-use hyper::service::Service as _;
-use hyper_util::service::TowerToHyperService;
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -20,7 +19,7 @@ const SHORT: u64 = 4096;
 
 /// What answers the requests of a connection.
 pub(super) struct Service {
-    pub(super) router: TowerToHyperService<Router>,
+    pub(super) edge: Edge,
     pub(super) doors: Arc<Doors>,
     pub(super) limits: Limits,
     pub(super) activity: Arc<Activity>,
@@ -35,8 +34,8 @@ impl Service {
         request: Request<Incoming>,
     ) -> Result<Response<Answer>, Infallible> {
         let long = request.body().size_hint().exact().is_none_or(|length| length > SHORT);
-        let request = request.map(|body| Received::new(body, &self.activity));
-        let (mut parts, body) = self.router.call(request).await?.into_parts();
+        let request = request.map(|body| Body::new(Received::new(body, &self.activity)));
+        let (mut parts, body) = self.edge.clone().answer(request).await.into_parts();
         let body = match self.protocol {
             Protocol::Http1 => {
                 // Whoever reads this asks elsewhere next time, and nothing that was sent is lost. Nor can the

@@ -28,6 +28,9 @@ use std::time::Duration;
 use tls::Tls;
 use tokio::net::TcpListener;
 
+/// Between two rounds of what is to be done now and then.
+const TIDY: Duration = Duration::from_secs(5);
+
 /// The two protocols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Protocol {
@@ -69,19 +72,41 @@ impl Service {
     /// Serves until a signal says to leave, then lets the requests in flight finish. Says whether all did.
     pub async fn serve(self, listener: TcpListener, signals: Signals) -> bool {
         descriptors::raise(self.connection_limit);
-        let router = service(self.app.clone());
-        let server = Arc::new(Server::new(self.app, router, self.tls.clone()));
-        let reload = || reload(self.tls.as_deref());
-        accept::serve(Accept::new(listener, server), signals, self.stopping, reload).await
+        let Self { app, tls, stopping, .. } = self;
+        let server = Arc::new(Server::new(app.clone(), service(&app), tls.clone()));
+        let all = tokio::select! {
+            all = accept::serve(Accept::new(listener, server), signals, stopping, || reload(&app, tls.as_deref())) => all,
+            () = tidy(&app) => false,
+        };
+        // Sends what is left to send, and waits for it.
+        if let Err(error) = tokio::task::spawn_blocking(move || app.edge().finish()).await {
+            tracing::warn!(%error, "the end was not told to whom it concerns");
+        }
+        all
     }
 }
 
 /// Reads again what may change while the service runs.
-fn reload(tls: Option<&Tls>) {
+fn reload(app: &App, tls: Option<&Tls>) {
+    let keys = app.edge().reload();
+    match &keys {
+        None => {}
+        Some(Ok(keys)) => tracing::info!(keys, "the keys were read again"),
+        Some(Err(error)) => tracing::error!(error, "the old keys stay"),
+    }
     match tls.map(Tls::reload) {
-        None => tracing::info!("nothing to read again"),
+        None if keys.is_none() => tracing::info!("there is nothing to read again"),
+        None => {}
         Some(Ok(())) => tracing::info!("certificate and key were read again"),
         Some(Err(error)) => tracing::error!(error, "the old certificate stays"),
+    }
+}
+
+/// Does for ever what is to be done now and then.
+async fn tidy(app: &App) {
+    loop {
+        tokio::time::sleep(TIDY).await;
+        app.edge().tidy();
     }
 }
 

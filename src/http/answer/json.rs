@@ -1,0 +1,212 @@
+//! Answers as JSON: columns one after the other, the first of them while it is being evaluated.
+
+use super::columns::{Stretch, headings};
+use super::output::{End, Output};
+use super::text::Text;
+use super::work::{Curve, Over, Work};
+use crate::http::compute::job::Job;
+use crate::http::problem::Problem;
+use crate::reflectance::diagram::Sweep;
+use crate::reflectance::evaluate::Tally;
+use futures_util::{StreamExt as _, pin_mut};
+use std::sync::Arc;
+
+/// Bytes about as many as an answer has besides its numbers, and for each row.
+const BESIDES: usize = 2048;
+const A_ROW: usize = 80;
+
+/// A small answer, at once.
+pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
+    let mut text = Text::with_capacity(BESIDES + A_ROW * work.rows());
+    begin(work, &mut text);
+    if let Over::Sweep(sweep) = &work.over {
+        text.numbers(sweep.positions(), true);
+        between(sweep, &mut text);
+    }
+    for index in 0..work.curves() {
+        let curve = work.prepare(index)?;
+        let stretch = work.stretch(&curve, 0..work.points(), || false)?;
+        begin_curve(&curve, index, &mut text);
+        for (name, numbers) in names(work, &curve).zip(&stretch.numbers) {
+            text.list(name, |text| text.numbers(numbers, true));
+        }
+        if let Some(method) = &stretch.method {
+            text.list("method", |text| text.methods(method, true));
+        }
+        if let Some(delta_on) = &stretch.delta_on {
+            text.list("delta_on", |text| text.booleans(delta_on, true));
+        }
+        text.findings(&curve.model, stretch.tally)?;
+        text.name("diagnostics");
+        text.push("[");
+        text.diagnostics(&stretch.diagnostics, true)?;
+        text.push("]");
+        end_curve(&curve, &mut text);
+    }
+    end(work, &mut text);
+    Ok(text.0)
+}
+
+/// A large answer, part by part.
+pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
+    let mut text = Text::default();
+    begin(&work, &mut text);
+    if let Over::Sweep(sweep) = &work.over {
+        let positions = sweep.positions().to_vec();
+        send_list(
+            &output,
+            &mut text,
+            positions.chunks(AT_A_TIME).map(<[f64]>::to_vec),
+            |text, numbers, first| {
+                text.numbers(&numbers, first);
+            },
+        )
+        .await?;
+        between(sweep, &mut text);
+    }
+    for index in 0..work.curves() {
+        let prepare = Arc::clone(&work);
+        let curve = output.run(move |_| prepare.prepare(index)).await??;
+        begin_curve(&curve, index, &mut text);
+        stream_curve(&work, &curve, &mut text, &output).await?;
+        end_curve(&curve, &mut text);
+    }
+    end(&work, &mut text);
+    output.send(text.0).await
+}
+
+/// Numbers of an axis that are written at a time.
+const AT_A_TIME: usize = 16 << 10;
+
+/// One curve: the total as it is evaluated; the other columns are kept until it is out.
+async fn stream_curve(work: &Arc<Work>, curve: &Curve, text: &mut Text, output: &Output) -> Result<(), End> {
+    let mut names = names(work, curve);
+    text.name(names.next().unwrap_or_default());
+    text.push("[");
+    output.send(text.take()).await?;
+    let mut kept: Vec<Stretch> = Vec::new();
+    let mut tally = Tally::default();
+    {
+        let evaluated = output.run_all(work.pieces().map(|range| {
+            let (work, curve) = (Arc::clone(work), curve.clone());
+            move |job: &Job| {
+                let first = range.start == 0;
+                let mut stretch = work.stretch(&curve, range, || job.is_stopped())?;
+                let mut text = Text::default();
+                text.numbers(&std::mem::take(&mut stretch.numbers[0]), first);
+                Ok::<_, Problem>((text, stretch))
+            }
+        }));
+        pin_mut!(evaluated);
+        while let Some(part) = evaluated.next().await {
+            let (text, stretch) = part??;
+            tally.append(&stretch.tally);
+            kept.push(stretch);
+            output.send(text.0).await?;
+        }
+    }
+    text.push("]");
+    for (column, name) in (1..).zip(names) {
+        text.name(name);
+        text.push("[");
+        let columns = kept.iter_mut().map(|stretch| std::mem::take(&mut stretch.numbers[column]));
+        send_list(output, text, columns, |text, numbers, first| text.numbers(&numbers, first)).await?;
+        text.push("]");
+    }
+    if kept.iter().all(|stretch| stretch.method.is_some()) {
+        text.name("method");
+        text.push("[");
+        let columns = kept.iter_mut().filter_map(|stretch| stretch.method.take());
+        send_list(output, text, columns, |text, methods, first| text.methods(&methods, first)).await?;
+        text.push("]");
+    }
+    if kept.iter().all(|stretch| stretch.delta_on.is_some()) {
+        text.name("delta_on");
+        text.push("[");
+        let columns = kept.iter_mut().filter_map(|stretch| stretch.delta_on.take());
+        send_list(output, text, columns, |text, booleans, first| text.booleans(&booleans, first)).await?;
+        text.push("]");
+    }
+    text.findings(&curve.model, tally)?;
+    text.name("diagnostics");
+    text.push("[");
+    let mut first = true;
+    for stretch in kept.into_iter().filter(|stretch| !stretch.diagnostics.is_empty()) {
+        text.diagnostics(&stretch.diagnostics, first)?;
+        first = false;
+        output.send(text.take()).await?;
+    }
+    text.push("]");
+    Ok(())
+}
+
+/// Sends what is written so far and then a list, whose parts are written side by side.
+async fn send_list<P: Send + 'static>(
+    output: &Output,
+    text: &mut Text,
+    parts: impl Iterator<Item = P> + Send,
+    write: impl Fn(&mut Text, P, bool) + Send + Sync + Copy + 'static,
+) -> Result<(), End> {
+    output.send(text.take()).await?;
+    let texts = output.run_all(parts.enumerate().map(|(place, part)| {
+        move |_: &Job| {
+            let mut text = Text::default();
+            write(&mut text, part, place == 0);
+            text
+        }
+    }));
+    pin_mut!(texts);
+    while let Some(text) = texts.next().await {
+        output.send(text?.0).await?;
+    }
+    Ok(())
+}
+
+fn names(work: &Work, curve: &Curve) -> impl Iterator<Item = &'static str> + use<> {
+    headings(curve.components(), work.quantity(), work.output()).into_iter().map(|(name, _)| name)
+}
+
+fn begin(work: &Work, text: &mut Text) {
+    text.push("{\"quantity\":\"");
+    text.push(work.quantity().name());
+    text.push("\",\"unit\":\"");
+    text.push(work.quantity().unit());
+    text.push("\"");
+    if let Over::Sweep(sweep) = &work.over {
+        text.push(",\"axis\":{\"name\":\"");
+        text.push(sweep.axis().name());
+        text.push("\",\"unit\":\"degrees\",\"values\":[");
+    }
+}
+
+/// Between the axis and the curves.
+fn between(sweep: &Sweep, text: &mut Text) {
+    text.push("]},\"fixed\":{\"name\":\"");
+    text.push(sweep.axis().fixed_name());
+    text.push("\",\"unit\":\"degrees\"}");
+    text.name("phi_r_deg");
+    text.numbers(&[sweep.phi_r()], true);
+    text.name("series");
+    text.push("[");
+}
+
+fn begin_curve(curve: &Curve, index: usize, text: &mut Text) {
+    if let Some(at) = curve.at_deg {
+        text.push(if index == 0 { "{" } else { ",{" });
+        text.name("at_deg");
+        text.numbers(&[at], true);
+    }
+}
+
+fn end_curve(curve: &Curve, text: &mut Text) {
+    if curve.at_deg.is_some() {
+        text.push("}");
+    }
+}
+
+fn end(work: &Work, text: &mut Text) {
+    text.push(match work.over {
+        Over::Directions(_) => "}",
+        Over::Sweep(_) => "]}",
+    });
+}
