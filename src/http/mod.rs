@@ -6,6 +6,7 @@ mod app;
 mod body;
 mod compute;
 mod connection;
+mod decode;
 mod edge;
 mod encode;
 mod input;

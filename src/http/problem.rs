@@ -19,6 +19,7 @@ pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
 pub(crate) enum Kind {
     MalformedJson,
     MalformedQuery,
+    MalformedColumns,
     BadRequest,
     BodyUnreadable,
     NotFound,
@@ -43,6 +44,11 @@ impl Kind {
         match self {
             Self::MalformedJson => ("malformed-json", StatusCode::BAD_REQUEST, "The body is not JSON"),
             Self::MalformedQuery => ("malformed-query", StatusCode::BAD_REQUEST, "The query is not readable"),
+            Self::MalformedColumns => (
+                "malformed-columns",
+                StatusCode::BAD_REQUEST,
+                "The body is not in the format that it is declared as",
+            ),
             Self::BadRequest => ("bad-request", StatusCode::BAD_REQUEST, "The request is not readable"),
             Self::BodyUnreadable => {
                 ("body-unreadable", StatusCode::BAD_REQUEST, "The body could not be read")
@@ -62,9 +68,11 @@ impl Kind {
             Self::ContentTooLarge => {
                 ("content-too-large", StatusCode::PAYLOAD_TOO_LARGE, "The body is larger than the limit")
             }
-            Self::UnsupportedMediaType => {
-                ("unsupported-media-type", StatusCode::UNSUPPORTED_MEDIA_TYPE, "The body has to be JSON")
-            }
+            Self::UnsupportedMediaType => (
+                "unsupported-media-type",
+                StatusCode::UNSUPPORTED_MEDIA_TYPE,
+                "The body is of a media type that is not accepted",
+            ),
             Self::InvalidRequest => {
                 ("invalid-request", StatusCode::UNPROCESSABLE_ENTITY, "The request has invalid fields")
             }

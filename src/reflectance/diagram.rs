@@ -8,6 +8,7 @@ use super::quantity::{
 };
 use super::scene::Scene;
 use super::table::{Column, Curve, Table};
+use core::ops::Range;
 
 /// Which zenith angle runs; the other is fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -213,11 +214,10 @@ impl Sweep {
         self.phi_r.get()
     }
 
-    /// The directions of the curve at one of the fixed angles.
-    pub fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
-        let (mut theta_i, mut theta_r) =
-            (Vec::with_capacity(self.positions.len()), Vec::with_capacity(self.positions.len()));
-        for &position in &self.positions {
+    /// Some of the directions of the curve at one of the fixed angles: those of a range of the positions.
+    pub fn directions(&self, fixed: f64, range: Range<usize>) -> Result<Directions, OutOfBounds> {
+        let (mut theta_i, mut theta_r) = (Vec::with_capacity(range.len()), Vec::with_capacity(range.len()));
+        for &position in &self.positions[range] {
             let (source, viewer) = match self.axis {
                 SweepAxis::ThetaR => (fixed, position),
                 SweepAxis::ThetaI => (position, fixed),
@@ -240,7 +240,8 @@ impl Sweep {
     ) -> Result<Table, OutOfBounds> {
         let mut curves = Vec::with_capacity(self.at.len());
         for &at in &self.at {
-            let evaluation = evaluate(scene, &self.directions(at)?, quantity, output);
+            let evaluation =
+                evaluate(scene, &self.directions(at, 0..self.positions.len())?, quantity, output);
             curves.push(Curve::of(evaluation, label.to_owned(), at, quantity.unit()));
         }
         Ok(Table {

@@ -12,7 +12,7 @@ pub struct Stretch {
     first: usize,
     tolerance: f64,
     is_named: bool,
-    columns: Columns,
+    pub(super) columns: Columns,
     method: Option<Vec<EvaluatedBy>>,
     roughness_g: Option<Vec<f64>>,
     tally: Tally,
@@ -134,6 +134,18 @@ impl Stretch {
         if let Some(method) = &mut self.method {
             method.push(by);
         }
+    }
+
+    /// Its parts; `before` directions stand before those that it was evaluated of.
+    pub fn into_parts_after(mut self, before: usize) -> Parts {
+        for diagnostic in &mut self.columns.diagnostics {
+            diagnostic.index += before;
+        }
+        for concern in [&mut self.tally.out_of_range, &mut self.tally.underflow, &mut self.tally.tolerance] {
+            concern.shift(before);
+        }
+        self.first += before;
+        self.into_parts()
     }
 
     /// Its parts.

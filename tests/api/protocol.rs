@@ -74,9 +74,22 @@ fn head_is_get_without_the_body() {
 fn an_unacceptable_accept_is_told_what_is_offered() {
     let server = Server::start();
     for (method, path, offered) in [
-        ("POST", "/v1/radiance", "application/json"),
-        ("POST", "/v1/diagrams", "application/json, text/csv"),
-        ("GET", "/v1/figures/18", "application/json, text/csv"),
+        (
+            "POST",
+            "/v1/radiance",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+        ),
+        ("POST", "/v1/plan", "application/json"),
+        (
+            "POST",
+            "/v1/diagrams",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+        ),
+        (
+            "GET",
+            "/v1/figures/18",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+        ),
     ] {
         let request = server.request(method, path).header("accept", "image/png");
         let document =

@@ -8,10 +8,14 @@ mod table;
 mod text;
 mod work;
 
-pub(crate) use work::{Over, Work};
+#[cfg(test)]
+mod tests;
+
+pub(crate) use work::{Over, Subject, Work};
 
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;
+use crate::http::edge::Asked;
 use crate::http::negotiate::{Format, VARY};
 use crate::http::problem::Problem;
 use crate::http::track::Deadline;
@@ -27,10 +31,12 @@ pub(crate) async fn respond(
     app: &App,
     deadline: Deadline,
     turn: Option<Turn>,
-    work: Work,
+    mut work: Work,
     format: Format,
 ) -> Result<Response, Problem> {
     work.check(app.limits()).map_err(Problem::invalid)?;
+    work.meter = app.edge().meter();
+    let asked = Asked(work.rows());
     let nanoseconds = work.nanoseconds_a_row() * work.rows() as f64;
     let content_type = format.content_type();
     let mut response = if nanoseconds <= SMALL {
@@ -61,5 +67,6 @@ pub(crate) async fn respond(
         }?
     };
     response.headers_mut().insert(header::VARY, HeaderValue::from_static(VARY));
+    response.extensions_mut().insert(asked);
     Ok(response)
 }

@@ -4,11 +4,13 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
-use crate::http::answer::{self, Over, Work};
+use crate::http::answer::{self, Over, Subject, Work};
 use crate::http::app::App;
 use crate::http::body::JsonBody;
+use crate::http::compute::admission::Turn;
 use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
+use crate::http::edge::Meter;
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
@@ -19,7 +21,6 @@ use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
 use axum::extract::State;
 use axum::response::Response;
-use std::sync::Arc;
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -65,7 +66,7 @@ pub(crate) async fn link(
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
     let key = format!("{request:?}{format:?}");
-    linked(&known, &key, draw(&app, format, deadline, request)).await
+    linked(&known, &key, draw(&app, format, deadline, None, request)).await
 }
 
 /// A tabulated diagram.
@@ -88,23 +89,24 @@ pub(crate) async fn diagram(
     State(app): State<App>,
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<DiagramRequest>,
+    JsonBody { value: request, turn }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    draw(&app, format, deadline, request).await
+    draw(&app, format, deadline, turn, request).await
 }
 
 async fn draw(
     app: &App,
     format: Format,
     deadline: Deadline,
+    turn: Option<Turn>,
     request: DiagramRequest,
 ) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
-    let work = Work {
-        scene: Arc::new(scene),
+    let subject = Subject::Scene {
+        scene: Box::new(scene),
         quantity: quantity.unwrap_or(Quantity::Radiance),
         output: OutputWire::chosen(output),
-        over: Over::Sweep(Arc::new(sweep)),
     };
-    answer::respond(app, deadline, None, work, format).await
+    let work = Work { subject, over: Over::Sweep(Box::new(sweep)), meter: Meter::default() };
+    answer::respond(app, deadline, turn, work, format).await
 }

@@ -142,7 +142,7 @@ impl From<Plan> for PlanAnswer {
 pub(crate) async fn plan(
     _: JsonOnly,
     deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), scene: CheckedScene(scene), .. } = request;
     compute::run(deadline, directions.count(), move || {

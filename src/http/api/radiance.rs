@@ -3,15 +3,18 @@
 use super::answer::Answer;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
-use crate::http::answer::{self, Over, Work};
+use crate::http::answer::{self, Over, Subject, Work};
 use crate::http::app::App;
-use crate::http::body::JsonBody;
+use crate::http::body::JsonOrColumns;
+use crate::http::compute::admission::Turn;
+use crate::http::decode::OBJECT;
 use crate::http::encode::rows::Binary;
+use crate::http::edge::Meter;
 use crate::http::input::node::Node;
-use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::Reader;
+use crate::http::input::object::{WireObject, documented_parameters, object};
+use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::AnglesWire;
-use crate::http::input::wire::{Schemas, Wire};
+use crate::http::input::wire::{Parameter, Schemas, Wire};
 use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::{Code, Problem};
 use crate::http::track::Deadline;
@@ -20,8 +23,9 @@ use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
 use axum::extract::State;
 use axum::response::Response;
-use std::sync::Arc;
+use utoipa::IntoParams;
 use utoipa::openapi::RefOr;
+use utoipa::openapi::path::{Parameter as DocumentedParameter, ParameterIn};
 use utoipa::openapi::schema::Schema;
 
 object! {
@@ -63,7 +67,32 @@ pub(crate) struct CheckedDirections(pub(crate) Directions);
 
 impl Wire for CheckedDirections {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let wire = GeometryWire::read(node, reader)?;
+        GeometryWire::read(node, reader)?.check(reader)
+    }
+
+    fn read_flat(_: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let wire = GeometryWire::take(fields, reader)?;
+        // All that has a length is a column.
+        reader.in_body(|reader| reader.within(OBJECT, |reader| wire.check(reader)))
+    }
+
+    fn schema() -> RefOr<Schema> {
+        GeometryWire::reference()
+    }
+
+    fn collect(schemas: &mut Schemas) {
+        GeometryWire::gather(schemas);
+    }
+
+    fn parameters(_: &'static str, _: &str, required: bool) -> Vec<Parameter> {
+        GeometryWire::query_parameters(required)
+    }
+}
+
+impl GeometryWire {
+    /// The directions, if the arrays have one length.
+    fn check(self, reader: &mut Reader) -> Option<CheckedDirections> {
+        let wire = self;
         let lengths = [
             wire.theta_i_deg.as_ref().and_then(|angles| angles.length),
             wire.theta_r_deg.as_ref().and_then(|angles| angles.length),
@@ -77,15 +106,8 @@ impl Wire for CheckedDirections {
             None => Angles::One(Azimuth::new(0.0).ok()?),
         };
         // What is wrong with the lengths was just noted.
-        Directions::new(wire.theta_i_deg?.angles?, wire.theta_r_deg?.angles?, phi_r).ok().map(Self)
-    }
-
-    fn schema() -> RefOr<Schema> {
-        GeometryWire::reference()
-    }
-
-    fn collect(schemas: &mut Schemas) {
-        GeometryWire::gather(schemas);
+        let directions = Directions::new(wire.theta_i_deg?.angles?, wire.theta_r_deg?.angles?, phi_r);
+        directions.ok().map(CheckedDirections)
     }
 }
 
@@ -121,14 +143,38 @@ object! {
     }
 }
 
+/// The query parameters of a request with columns. A JSON body has none of them, so that none is required of all
+/// requests.
+pub(crate) struct BesideColumns;
+
+impl IntoParams for BesideColumns {
+    fn into_params(_: impl Fn() -> Option<ParameterIn>) -> Vec<DocumentedParameter> {
+        documented_parameters(RadianceRequest::query_parameters(false))
+    }
+}
+
 /// Radiance L_r (2) by component.
 ///
 /// Up to 1,000,000 directions in one request. The unit is that of `irradiance` per steradian.
+///
+/// The directions can also come as columns `theta_i_deg`, `theta_r_deg`, `phi_r_deg` (in any order) of CSV with a line
+/// of names, of an Arrow IPC stream (floats or integers, uncompressed, without nulls), or of a structured `.npy` array of
+/// one dimension. The rest of the request then stands in the query, flattened as for `GET /v1/diagrams`, and so does an
+/// angle that is the same in all directions.
 #[utoipa::path(
     post,
     path = "/v1/radiance",
     tag = "reflection",
-    request_body(content = RadianceRequest, description = "The scene and the directions."),
+    params(BesideColumns),
+    request_body(
+        content(
+            (RadianceRequest = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        ),
+        description = "The scene and the directions; or directions alone, as columns."
+    ),
     responses(
         (status = 200, description = "The radiance in each direction.", content(
             (Answer = "application/json"),
@@ -143,19 +189,28 @@ pub(crate) async fn radiance(
     State(app): State<App>,
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(&app, Quantity::Radiance, format, deadline, request).await
+    answer(&app, Quantity::Radiance, format, deadline, turn, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
 ///
-/// The same request as `/v1/radiance`; I_s = irradiance · cos θ_i is the irradiance of the surface.
+/// The same request as `/v1/radiance`, as JSON or as columns; I_s = irradiance · cos θ_i is the irradiance of the surface.
 #[utoipa::path(
     post,
     path = "/v1/brdf",
     tag = "reflection",
-    request_body(content = RadianceRequest, description = "The scene and the directions."),
+    params(BesideColumns),
+    request_body(
+        content(
+            (RadianceRequest = "application/json"),
+            (String = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+            (Binary = "application/x-npy")
+        ),
+        description = "The scene and the directions; or directions alone, as columns."
+    ),
     responses(
         (status = 200, description = "The BRDF in each direction.", content(
             (Answer = "application/json"),
@@ -170,9 +225,9 @@ pub(crate) async fn brdf(
     State(app): State<App>,
     Tabular(format): Tabular,
     deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(&app, Quantity::Brdf, format, deadline, request).await
+    answer(&app, Quantity::Brdf, format, deadline, turn, request).await
 }
 
 async fn answer(
@@ -180,11 +235,12 @@ async fn answer(
     quantity: Quantity,
     format: Format,
     deadline: Deadline,
+    turn: Option<Turn>,
     request: RadianceRequest,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
-    let (scene, over) = (Arc::new(scene), Over::Directions(Arc::new(directions)));
-    let work = Work { scene, quantity, output: OutputWire::chosen(output), over };
-    answer::respond(app, deadline, None, work, format).await
+    let subject = Subject::Scene { scene: Box::new(scene), quantity, output: OutputWire::chosen(output) };
+    let work = Work { subject, over: Over::Directions(Box::new(directions)), meter: Meter::default() };
+    answer::respond(app, deadline, turn, work, format).await
 }

@@ -144,7 +144,7 @@ impl TradeoffAnswer {
 pub(crate) async fn tradeoff(
     _: JsonOnly,
     deadline: Deadline,
-    JsonBody(request): JsonBody<RadianceRequest>,
+    JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;

@@ -16,7 +16,7 @@ with keys; otherwise anybody may ask.";
 pub(crate) fn complete(document: &mut OpenApi) {
     let scheme = Http::builder().scheme(HttpAuthScheme::Bearer).description(Some(DESCRIPTION)).build();
     let components = document.components.get_or_insert_default();
-    components.security_schemes.insert(BEARER.to_owned(), SecurityScheme::Http(scheme));
+    components.security_schemes.insert(BEARER.to_owned(), SecurityScheme::Http(scheme).into());
     for (path, item) in &mut document.paths.paths {
         let class = class(path);
         for operation in [&mut item.get, &mut item.post].into_iter().flatten() {

@@ -106,9 +106,9 @@ pub(crate) fn described(schema: RefOr<Schema>, description: &str) -> RefOr<Schem
     }
 }
 
-/// The query parameters of an object, for the document.
-pub(crate) fn documented_parameters<T: WireObject>() -> Vec<path::Parameter> {
-    T::query_parameters(true)
+/// Query parameters, for the document.
+pub(crate) fn documented_parameters(parameters: Vec<Parameter>) -> Vec<path::Parameter> {
+    parameters
         .into_iter()
         .map(|parameter| {
             let list = match &parameter.schema {
@@ -266,7 +266,8 @@ macro_rules! object {
             fn into_params(
                 _: impl Fn() -> Option<utoipa::openapi::path::ParameterIn>,
             ) -> Vec<utoipa::openapi::path::Parameter> {
-                $crate::http::input::object::documented_parameters::<Self>()
+                let parameters = <Self as $crate::http::input::object::WireObject>::query_parameters(true);
+                $crate::http::input::object::documented_parameters(parameters)
             }
         }
 

@@ -1,10 +1,11 @@
 //! The query of a link as an object whose values are texts.
 
-use super::node::{Array, Node, Object};
+use super::node::{Array, Node, Object, excerpt};
 use super::object::WireObject;
 use super::reader::{Fields, Reader};
 use crate::http::app::App;
-use crate::http::problem::{Kind, Problem};
+use crate::http::decode::Columns;
+use crate::http::problem::{Code, Kind, Problem};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 
@@ -18,7 +19,8 @@ impl<T: WireObject + Send> FromRequestParts<App> for Query<T> {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, _: &App) -> Result<Self, Problem> {
-        read(parts.uri.query().unwrap_or_default()).map(Self)
+        let query = parts.uri.query().unwrap_or_default();
+        read_beside(query, Columns::default(), Reader::query()).map(Self)
     }
 }
 
@@ -35,12 +37,26 @@ impl<S: Sync> FromRequestParts<S> for NoQuery {
     }
 }
 
-fn read<T: WireObject>(query: &str) -> Result<T, Problem> {
-    let mut fields = Fields::new(object(query)?);
-    let mut reader = Reader::query();
+/// Reads the query of a request whose body has columns; the reader has noted already what is wrong with them.
+pub(crate) fn read_beside<T: WireObject>(
+    query: &str,
+    columns: Columns,
+    mut reader: Reader,
+) -> Result<T, Problem> {
+    let mut fields = Fields::with_columns(object(query)?, columns);
     let value = T::take(&mut fields, &mut reader);
     fields.finish(&mut reader, &T::flat_names());
     reader.finish(value).map_err(Problem::invalid)
+}
+
+/// Refuses every parameter, each of which belongs elsewhere.
+pub(crate) fn refuse(query: &str, elsewhere: &str) -> Result<(), Problem> {
+    let mut reader = Reader::query();
+    for (name, _) in object(query)?.fields {
+        let detail = format!("this belongs {elsewhere}");
+        reader.within(excerpt(&name), |reader| reader.error(Code::Inconsistent, detail));
+    }
+    reader.finish(Some(())).map_err(Problem::invalid)
 }
 
 /// Names and values; a name given several times has an array of texts.

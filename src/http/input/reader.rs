@@ -2,7 +2,9 @@
 
 use super::node::{Node, Object};
 use super::wire::Wire;
+use crate::http::decode::Columns;
 use crate::http::problem::{Code, FieldError};
+use crate::reflectance::bounds::MAX_DIRECTIONS;
 use std::borrow::Cow;
 
 /// Errors of one array that are listed one by one.
@@ -24,12 +26,19 @@ pub(crate) struct Reader {
     errors: Vec<FieldError>,
     unlisted: usize,
     flat: bool,
+    most_directions: usize,
 }
 
 impl Reader {
     /// For a JSON body.
     pub(crate) fn json() -> Self {
-        Self { path: Vec::new(), errors: Vec::new(), unlisted: 0, flat: false }
+        Self {
+            path: Vec::new(),
+            errors: Vec::new(),
+            unlisted: 0,
+            flat: false,
+            most_directions: MAX_DIRECTIONS,
+        }
     }
 
     /// For a query, where every value is a text and objects are flattened.
@@ -37,9 +46,28 @@ impl Reader {
         Self { flat: true, ..Self::json() }
     }
 
+    /// With the service's own limit of directions.
+    pub(crate) fn with_most_directions(self, most_directions: usize) -> Self {
+        Self { most_directions, ..self }
+    }
+
+    /// How many directions the request may have.
+    pub(crate) const fn most_directions(&self) -> usize {
+        self.most_directions
+    }
+
     /// Whether this is a query.
     pub(crate) const fn is_flat(&self) -> bool {
         self.flat
+    }
+
+    /// Reads what a request whose fields stand in the query has in its body: values have types there, and pointers
+    /// begin at the object.
+    pub(crate) fn in_body<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
+        let flat = std::mem::replace(&mut self.flat, false);
+        let value = read(self);
+        self.flat = flat;
+        value
     }
 
     /// Reads inside a field.
@@ -149,11 +177,27 @@ impl ElementErrors {
 #[derive(Debug)]
 pub(crate) struct Fields {
     object: Object,
+    columns: Columns,
 }
 
 impl Fields {
-    pub(crate) const fn new(object: Object) -> Self {
-        Self { object }
+    pub(crate) fn new(object: Object) -> Self {
+        Self::with_columns(object, Columns::default())
+    }
+
+    /// Of a query, with what the body has beside it.
+    pub(crate) const fn with_columns(object: Object, columns: Columns) -> Self {
+        Self { object, columns }
+    }
+
+    /// The columns of the body.
+    pub(crate) const fn columns(&mut self) -> &mut Columns {
+        &mut self.columns
+    }
+
+    /// Whether any of these is given, as a column or otherwise.
+    pub(crate) fn has_any_or_column(&self, names: &[&str]) -> bool {
+        self.has_any(names) || names.iter().any(|name| self.columns.has(name))
     }
 
     /// Whether any of these is given.

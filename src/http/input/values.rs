@@ -6,6 +6,7 @@ use super::reader::{ElementErrors, Fields, Reader};
 use super::wire::{
     Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, text_number,
 };
+use crate::http::decode::OBJECT;
 use crate::http::problem::Code;
 use crate::reflectance::bounds::MAX_DIRECTIONS;
 use crate::reflectance::directions::Angles;
@@ -37,7 +38,7 @@ impl<Q: Quantity> Wire for AnglesWire<Q> {
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
             Node::Array(_) => {
-                let numbers = many::<Q>(node, MAX_DIRECTIONS, reader)?;
+                let numbers = many::<Q>(node, reader.most_directions(), reader)?;
                 let length = Some(numbers.len());
                 let each: Option<Vec<Q>> = numbers.into_iter().map(|number| Q::new(number).ok()).collect();
                 Some(Self { length, angles: each.map(Angles::Each) })
@@ -51,8 +52,36 @@ impl<Q: Quantity> Wire for AnglesWire<Q> {
         }
     }
 
+    /// A column of the body, or one number in the query.
+    fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let Some(column) = fields.columns().take(name) else {
+            if fields.has_any(&[name]) {
+                return fields.take_named(reader, name);
+            }
+            let detail = "required: a column of the body, or one number here";
+            return reader.within(name, |reader| reader.fail(Code::Required, detail));
+        };
+        fields.exclude(reader, &[name], "the column of this name in the body");
+        fields.forget(&[name]);
+        let read = |reader: &mut Reader| {
+            reader.within(OBJECT, |reader| {
+                reader.within(name, |reader| Self::read(Node::Array(column), reader))
+            })
+        };
+        reader.in_body(read)
+    }
+
+    fn is_given(name: &'static str, fields: &Fields) -> bool {
+        fields.has_any_or_column(&[name])
+    }
+
     fn schema() -> RefOr<Schema> {
         OneOfBuilder::new().item(Q::schema()).item(list_schema(Q::schema(), MAX_DIRECTIONS)).into()
+    }
+
+    fn parameters(name: &'static str, description: &str, _: bool) -> Vec<Parameter> {
+        let description = format!("{description} Unless the body has a column of this name.");
+        vec![Parameter { name, description, required: false, schema: Q::schema() }]
     }
 }
 
