@@ -3,19 +3,17 @@
 //! A loop of our own rather than `axum::serve`, which sets no time limit on a request's head: a
 //! client that sends one byte a minute would hold its connection for ever.
 
+use super::app::App;
 use super::connection::{Activity, Protocol, Watched, protocol};
-use super::router;
+use super::edge::Edge;
+use super::service;
 use crate::config::Config;
-use axum::Router;
-use axum::extract::{Request, State};
-use axum::middleware::{Next, from_fn_with_state};
-use axum::response::Response;
 use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
 use hyper_util::server::conn::auto::Builder;
 use hyper_util::server::graceful::{GracefulShutdown, Watcher};
 use hyper_util::service::TowerToHyperService;
+use std::net::SocketAddr;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::signal::unix::{Signal, SignalKind, signal};
@@ -30,22 +28,24 @@ const QUIET: Duration = Duration::from_secs(1);
 
 /// Serves until one of the signals, then lets the requests in flight finish. Says whether all did.
 pub async fn serve(listener: TcpListener, mut signals: StopSignals, config: &Config) -> bool {
-    let in_flight = Arc::new(AtomicUsize::new(0));
+    let app = App::new(config);
     let (stopping, stopped) = watch::channel(false);
     let server = Arc::new(Server {
-        router: router(config).layer(from_fn_with_state(Arc::clone(&in_flight), count)),
+        edge: service(&app),
         http1: http1(config),
         http2: http2(config),
         patience: config.requests.request_timeout_seconds,
-        in_flight,
+        app: app.clone(),
     });
     let open = GracefulShutdown::new();
+    let mut tidy = tokio::time::interval(Duration::from_secs(5));
+    let Ok(mut hangup) = signal(SignalKind::hangup()) else { return false };
     let mut stop = std::pin::pin!(signals.received());
     loop {
         tokio::select! {
             accepted = listener.accept() => match accepted {
-                Ok((stream, _)) => {
-                    tokio::spawn(Arc::clone(&server).connection(stream, open.watcher(), stopped.clone()));
+                Ok((stream, peer)) => {
+                    tokio::spawn(Arc::clone(&server).connection(stream, peer, open.watcher(), stopped.clone()));
                 }
                 Err(error) => {
                     tracing::warn!(%error, "accept failed");
@@ -53,12 +53,19 @@ pub async fn serve(listener: TcpListener, mut signals: StopSignals, config: &Con
                 }
             },
             () = &mut stop => break,
+            _ = hangup.recv() => match app.edge().reload() {
+                Some(Ok(keys)) => tracing::info!(keys, "keys were read again"),
+                Some(Err(error)) => tracing::error!(error, "the old keys stay"),
+                None => tracing::info!("nothing to read again"),
+            },
+            _ = tidy.tick() => app.edge().tidy(),
         }
     }
+    app.edge().drain();
     drop(listener);
     stopping.send_replace(true);
     tracing::info!(connections = open.count(), "stopping: finishing what is in flight");
-    tokio::select! {
+    let all = tokio::select! {
         () = open.shutdown() => {
             tracing::info!("stopped");
             true
@@ -67,7 +74,9 @@ pub async fn serve(listener: TcpListener, mut signals: StopSignals, config: &Con
             tracing::warn!("stopped with requests unfinished");
             false
         }
-    }
+    };
+    let _ = tokio::task::spawn_blocking(move || app.edge().finish()).await;
+    all
 }
 
 fn http1(config: &Config) -> Builder<TokioExecutor> {
@@ -90,27 +99,13 @@ fn http2(config: &Config) -> Builder<TokioExecutor> {
     builder
 }
 
-/// Counts the requests that are being answered.
-async fn count(State(in_flight): State<Arc<AtomicUsize>>, request: Request, next: Next) -> Response {
-    /// Counts down also where the client leaves and the future is dropped.
-    struct Guard(Arc<AtomicUsize>);
-    impl Drop for Guard {
-        fn drop(&mut self) {
-            self.0.fetch_sub(1, Ordering::Relaxed);
-        }
-    }
-    in_flight.fetch_add(1, Ordering::Relaxed);
-    let _guard = Guard(in_flight);
-    next.run(request).await
-}
-
 /// What every connection shares.
 struct Server {
-    router: Router,
+    app: App,
+    edge: Edge,
     http1: Builder<TokioExecutor>,
     http2: Builder<TokioExecutor>,
     patience: Duration,
-    in_flight: Arc<AtomicUsize>,
 }
 
 impl Server {
@@ -118,6 +113,7 @@ impl Server {
     async fn connection(
         self: Arc<Self>,
         stream: TcpStream,
+        peer: SocketAddr,
         watcher: Watcher,
         stopped: watch::Receiver<bool>,
     ) {
@@ -138,7 +134,7 @@ impl Server {
         };
         let activity = Activity::new();
         let stream = TokioIo::new(Watched { stream, activity: activity.clone() });
-        let service = TowerToHyperService::new(self.router.clone());
+        let service = TowerToHyperService::new(self.edge.of(peer));
         let builder = if protocol == Protocol::Http1 { &self.http1 } else { &self.http2 };
         let connection = watcher.watch(builder.serve_connection(stream, service).into_owned());
         tokio::select! {
@@ -157,7 +153,7 @@ impl Server {
     /// heard of the end, and a client that is gone never does.
     async fn idle(&self, activity: &Activity, stopped: watch::Receiver<bool>) {
         quiet_after(stopped).await;
-        while self.in_flight.load(Ordering::Relaxed) > 0 || activity.last().elapsed() < QUIET {
+        while self.app.edge().in_flight() > 0 || activity.last().elapsed() < QUIET {
             tokio::time::sleep(QUIET / 10).await;
         }
     }

@@ -44,7 +44,8 @@ fn without_a_key_there_is_no_answer_but_to_what_is_open() {
     for path in ["/livez", "/readyz", "/docs/", "/openapi.json"] {
         assert_eq!(server.get(path).status(), 200, "{path}");
     }
-    for path in ["/v1/figures", "/v1/figures/18", "/metrics", "/v1/nothing", "/nothing", "//livez", "/livez/"] {
+    for path in ["/v1/figures", "/v1/figures/18", "/metrics", "/v1/nothing", "/nothing", "//livez", "/livez/"]
+    {
         let response = server.get(path);
         assert_eq!(response.headers()["www-authenticate"], "Bearer realm=\"reflectance\"", "{path}");
         let document = problem(response, 401);
@@ -63,7 +64,13 @@ fn without_a_key_there_is_no_answer_but_to_what_is_open() {
     let body = scene().to_string();
     let post = |key: &str| {
         let request = server.request("POST", "/v1/radiance").header("authorization", format!("Bearer {key}"));
-        request.header("content-type", "application/json").body(body.clone()).send().unwrap().status().as_u16()
+        request
+            .header("content-type", "application/json")
+            .body(body.clone())
+            .send()
+            .unwrap()
+            .status()
+            .as_u16()
     };
     assert_eq!((post(KEY), post(&KEY[1..])), (200, 401));
 }
@@ -108,7 +115,9 @@ fn keys_are_read_again_on_a_hangup_and_kept_if_the_file_is_wrong() {
 #[test]
 fn a_wrong_file_of_keys_ends_the_start_with_one_line() {
     let file = KeysFile::new("wrong", &format!("first {KEY}\nsecond short\n"));
-    for (path, words) in [(file.path(), "line 2: expected a key of 16 to 256"), ("/nowhere", "cannot read it")] {
+    for (path, words) in
+        [(file.path(), "line 2: expected a key of 16 to 256"), ("/nowhere", "cannot read it")]
+    {
         let output = Command::new(env!("CARGO_BIN_EXE_reflectance"))
             .args(["--listen", "127.0.0.1:0", "--api-keys-file", path])
             .output()
@@ -218,7 +227,10 @@ fn pages_of_the_configured_origins_may_read_answers() {
         }
         // An error may be read like an answer.
         let refused = from("POST", origin);
-        assert_eq!((refused.status().as_u16(), &refused.headers()["access-control-allow-origin"]), (401, &origin.parse().unwrap()));
+        assert_eq!(
+            (refused.status().as_u16(), &refused.headers()["access-control-allow-origin"]),
+            (401, &origin.parse().unwrap())
+        );
         let exposed = refused.headers()["access-control-expose-headers"].to_str().unwrap();
         for name in ["etag", "x-request-id", "ratelimit", "retry-after"] {
             assert!(exposed.split(',').any(|exposed| exposed.trim() == name), "{exposed}");
@@ -235,7 +247,8 @@ fn pages_of_the_configured_origins_may_read_answers() {
 #[test]
 fn any_page_may_read_answers_where_the_operator_says_so() {
     let server = Server::with(&["--cors-origin", "*"]);
-    let response = server.request("GET", "/v1/figures").header("origin", "https://any.example").send().unwrap();
+    let response =
+        server.request("GET", "/v1/figures").header("origin", "https://any.example").send().unwrap();
     assert_eq!(response.headers()["access-control-allow-origin"], "*");
     let origin = ["--cors-origin", "https://one.example/path"];
     let output = Command::new(env!("CARGO_BIN_EXE_reflectance")).args(origin).output().unwrap();

@@ -98,7 +98,10 @@ fn a_line_says_what_was_asked_by_whom_and_what_became_of_it() {
     ];
     for (line, (method, route, status)) in lines.iter().zip(expected) {
         assert_eq!(line["level"], "INFO");
-        assert_eq!((&line["method"], &line["route"], &line["status"]), (&method.into(), &route.into(), &status.into()));
+        assert_eq!(
+            (&line["method"], &line["route"], &line["status"]),
+            (&method.into(), &route.into(), &status.into())
+        );
         assert_eq!(line["client"], "127.0.0.1", "{line}");
         assert!(line["microseconds"].as_u64().is_some_and(|time| time > 0), "{line}");
         assert!(line["bytes"].as_u64().is_some_and(|bytes| bytes > 0), "{line}");

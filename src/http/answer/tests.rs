@@ -3,8 +3,8 @@
 use super::output::begin;
 use super::{Over, Subject, Work, json, table};
 use crate::config::Cli;
-use crate::http::edge::Meter;
 use crate::http::app::App;
+use crate::http::edge::Meter;
 use crate::http::encode::rows::RowFormat;
 use crate::http::track::Deadline;
 use crate::reflectance::diagram::{Division, SweepAxis, SweepParts};

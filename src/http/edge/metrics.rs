@@ -97,7 +97,8 @@ impl Metrics {
             .set_buckets_for_metric(Matcher::Full(DURATION.0.to_owned()), &SECONDS)
             .unwrap_or_else(|_| PrometheusBuilder::new());
         let recorder = builder.build_recorder();
-        for Description(name, text) in [REQUESTS, DIRECTIONS, SHED, RATE_LIMITED, KEYS_REJECTED, POOL_PIECES] {
+        for Description(name, text) in [REQUESTS, DIRECTIONS, SHED, RATE_LIMITED, KEYS_REJECTED, POOL_PIECES]
+        {
             recorder.describe_counter(name.into(), None, SharedString::from(text));
         }
         for Description(name, text) in GAUGES {

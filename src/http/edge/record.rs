@@ -50,8 +50,14 @@ pub(super) struct Record {
 
 impl Record {
     pub(super) fn new(app: App, known: Arc<Known>) -> Self {
-        let outcome =
-            Outcome { status: CLIENT_LEFT, duration: Duration::ZERO, bytes: 0, directions: 0, cut: false, problem: None };
+        let outcome = Outcome {
+            status: CLIENT_LEFT,
+            duration: Duration::ZERO,
+            bytes: 0,
+            directions: 0,
+            cut: false,
+            problem: None,
+        };
         Self { app, known, outcome }
     }
 
