@@ -4,6 +4,7 @@ mod answer;
 mod api;
 mod app;
 mod body;
+mod coding;
 mod compute;
 mod connection;
 mod decode;
@@ -23,8 +24,6 @@ pub use serve::{StopSignals, serve};
 use crate::config::Config;
 use app::App;
 use axum::Router;
-// The name that it had.
-use edge as track;
 use edge::Edge;
 use std::net::SocketAddr;
 

@@ -2,7 +2,8 @@
 
 use super::App;
 use super::api::{
-    diagrams, documents, figures, health, image_irradiance, plan, radiance, roughness, tradeoff,
+    diagrams, documents, figures, health, image_irradiance, limits, plan, problems, radiance, roughness,
+    tradeoff,
 };
 use super::edge::not_found;
 use super::openapi;
@@ -24,6 +25,9 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(figures::index))
         .routes(routes!(figures::figure))
         .routes(routes!(roughness::roughness))
+        .routes(routes!(limits::limits))
+        .routes(routes!(problems::index))
+        .routes(routes!(problems::problem))
         .routes(routes!(health::livez))
         .routes(routes!(health::readyz))
         .routes(routes!(health::metrics))

@@ -3,7 +3,9 @@
 mod access;
 mod at_once;
 mod bad_input;
+mod caching;
 mod command_line;
+mod compression;
 mod diagrams;
 mod documents;
 mod examples;

@@ -28,10 +28,10 @@ const MOST_ROWS: usize = 16 << 10;
 /// What is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Work {
-    pub(crate) subject: Subject,
-    pub(crate) over: Over,
+    pub(super) subject: Subject,
+    pub(super) over: Over,
     /// Counts what is evaluated.
-    pub(crate) meter: Meter,
+    pub(super) meter: Meter,
 }
 
 /// Of what.
@@ -64,6 +64,10 @@ pub(super) enum Model {
 }
 
 impl Work {
+    pub(crate) fn new(subject: Subject, over: Over) -> Self {
+        Self { subject, over, meter: Meter::default() }
+    }
+
     pub(super) fn rows(&self) -> usize {
         match &self.over {
             Over::Directions(directions) => directions.count(),

@@ -6,6 +6,8 @@ use super::rate::Standing;
 use super::route::Class;
 use super::settle::{on_panic, settle};
 use crate::http::app::App;
+use crate::http::coding::Wanted;
+use crate::http::link::take_version;
 use crate::http::problem::{Kind, Problem};
 use axum::Router;
 use axum::extract::Request;
@@ -40,20 +42,24 @@ impl Gate {
     /// Answers a request, whatever it is.
     pub(super) async fn answer(mut self, mut request: Request, known: Arc<Known>) -> Response {
         let (standing, open) = self.open(&known, request.headers());
+        let wanted = Wanted::of(request.headers());
         let response = match &open {
-            Ok(()) => {
-                request.extensions_mut().insert(Arc::clone(&known));
-                match AssertUnwindSafe(self.routes.call(request)).catch_unwind().await {
-                    Ok(Ok(response)) => response,
-                    Err(panic) => on_panic(&*panic, &known),
+            Ok(()) => match take_version(&mut request) {
+                Ok(()) => {
+                    request.extensions_mut().insert(Arc::clone(&known));
+                    match AssertUnwindSafe(self.routes.call(request)).catch_unwind().await {
+                        Ok(Ok(response)) => response,
+                        Err(panic) => on_panic(&*panic, &known),
+                    }
                 }
-            }
+                Err(problem) => problem.into_response(),
+            },
             Err(closed) => self.problem(closed).into_response(),
         };
         if open.is_ok() && response.extensions().get().is_some_and(Problem::is_overload) {
             self.app.edge().metrics.shed_queue.increment(1);
         }
-        let mut response = settle(response, &known);
+        let mut response = settle(&self.app, wanted, response, &known).await;
         if let Err(Closed::Key(refused)) = open {
             let challenge = if refused == Refused::Missing { CHALLENGE } else { CHALLENGE_AGAIN };
             response.headers_mut().insert(header::WWW_AUTHENTICATE, challenge);

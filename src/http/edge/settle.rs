@@ -1,16 +1,21 @@
 //! What leaves the service in place of a handler's error, or of one that a library underneath made.
 
 use super::known::Known;
+use crate::http::app::App;
+use crate::http::coding::Wanted;
+use crate::http::coding::compress::compress;
 use crate::http::problem::{Kind, Problem};
 use axum::body::{Body, HttpBody as _};
 use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse as _, Response};
 use std::any::Any;
 
-/// Gives every error its document, and HEAD no body.
-pub(super) fn settle(response: Response, known: &Known) -> Response {
-    let mut response = with_document(response, &known.method, known.path());
-    if known.method == Method::HEAD {
+/// Gives every error its document, the client the coding that it wants, and HEAD no body.
+pub(super) async fn settle(app: &App, wanted: Wanted, response: Response, known: &Known) -> Response {
+    let response = with_document(response, &known.method, known.path());
+    let is_head = known.method == Method::HEAD;
+    let mut response = compress(app, wanted, is_head, response).await;
+    if is_head {
         // The length is that of the answer to GET; the bytes stay here.
         if let Some(length) = response.body().size_hint().exact() {
             response.headers_mut().entry(header::CONTENT_LENGTH).or_insert(length.into());
