@@ -18,3 +18,5 @@ mod readme;
 mod server;
 mod telemetry;
 mod tradeoff;
+mod transport;
+mod wire;
