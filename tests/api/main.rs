@@ -6,6 +6,7 @@ mod command_line;
 mod diagrams;
 mod documents;
 mod examples;
+mod formats;
 mod limits;
 mod plan;
 mod properties;
