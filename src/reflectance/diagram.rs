@@ -8,9 +8,11 @@ use super::quantity::{
 };
 use super::scene::Scene;
 use super::table::{Column, Curve, Table};
+use core::hash::{Hash, Hasher};
+use core::ops::Range;
 
 /// Which zenith angle runs; the other is fixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SweepAxis {
     /// θ_r for a fixed source, as in figures 11 to 21.
     ThetaR,
@@ -45,7 +47,7 @@ impl SweepAxis {
 }
 
 /// How the sweep is divided.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Division {
     /// From the start in steps of this many degrees, while the end is not passed.
     Step(SweepStep),
@@ -86,6 +88,9 @@ pub enum DiagramError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     axis: SweepAxis,
+    /// What the positions follow from.
+    ends: (SweepAngle, SweepAngle),
+    division: Division,
     positions: Vec<f64>,
     at: Vec<f64>,
     phi_r: Azimuth,
@@ -149,6 +154,16 @@ impl SweepParts {
     }
 }
 
+/// By what it was made of, which is less than its positions.
+impl Hash for Sweep {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.axis, self.ends, self.division, self.phi_r).hash(state);
+        for at in &self.at {
+            state.write_u64(at.to_bits());
+        }
+    }
+}
+
 impl Sweep {
     /// Checks the parts against each other; all that is wrong comes back at once.
     pub fn new(
@@ -183,9 +198,10 @@ impl Sweep {
         at: Vec<f64>,
         phi_r: Azimuth,
     ) -> Self {
+        let ends = (from, to);
         let (from, to) = (from.get(), to.get());
         let points = division.points(from, to);
-        Self { axis, positions: division.positions(from, to, points), at, phi_r }
+        Self { axis, ends, division, positions: division.positions(from, to, points), at, phi_r }
     }
 
     /// Rows of the table: points times fixed angles.
@@ -213,11 +229,10 @@ impl Sweep {
         self.phi_r.get()
     }
 
-    /// The directions of the curve at one of the fixed angles.
-    pub fn directions(&self, fixed: f64) -> Result<Directions, OutOfBounds> {
-        let (mut theta_i, mut theta_r) =
-            (Vec::with_capacity(self.positions.len()), Vec::with_capacity(self.positions.len()));
-        for &position in &self.positions {
+    /// Some of the directions of the curve at one of the fixed angles: those of a range of the positions.
+    pub fn directions(&self, fixed: f64, range: Range<usize>) -> Result<Directions, OutOfBounds> {
+        let (mut theta_i, mut theta_r) = (Vec::with_capacity(range.len()), Vec::with_capacity(range.len()));
+        for &position in &self.positions[range] {
             let (source, viewer) = match self.axis {
                 SweepAxis::ThetaR => (fixed, position),
                 SweepAxis::ThetaI => (position, fixed),
@@ -240,7 +255,8 @@ impl Sweep {
     ) -> Result<Table, OutOfBounds> {
         let mut curves = Vec::with_capacity(self.at.len());
         for &at in &self.at {
-            let evaluation = evaluate(scene, &self.directions(at)?, quantity, output);
+            let evaluation =
+                evaluate(scene, &self.directions(at, 0..self.positions.len())?, quantity, output);
             curves.push(Curve::of(evaluation, label.to_owned(), at, quantity.unit()));
         }
         Ok(Table {

@@ -65,6 +65,11 @@ impl Concern {
         self.largest = self.largest.max(value);
     }
 
+    /// Counts `before` directions before its own.
+    pub(super) fn shift(&mut self, before: usize) {
+        self.indices.iter_mut().for_each(|index| *index += before);
+    }
+
     /// Those of the directions that follow.
     pub(super) fn append(&mut self, next: &Self) {
         let room = LISTED_INDICES - self.indices.len();

@@ -10,6 +10,7 @@ use super::image_irradiance::{LinearModel, Offset, Spike, Strengths};
 use super::numeric::scaled::Scaled;
 use super::quantity::{FacetSlope, Length, SourceZenith, SpikeWidth, Strength, ViewerZenith, Wavelength};
 use super::scene::Component;
+use core::ops::Range;
 
 /// Which of the two models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,6 +94,9 @@ pub struct LinearScene {
     pub spike: SpikeShape,
 }
 
+/// Directions between two looks at whether to go on: some tens of microseconds.
+const BETWEEN_LOOKS: usize = 64;
+
 /// Image irradiance in N directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearEvaluation {
@@ -111,11 +115,21 @@ pub struct LinearEvaluation {
 }
 
 impl LinearScene {
-    /// Evaluates the model in every direction.
-    pub fn evaluate(&self, directions: &Directions, log10: bool) -> LinearEvaluation {
-        let mut columns = Columns::new(&Component::ALL, directions.count(), log10);
-        let mut delta_on = Vec::with_capacity(directions.count());
-        for index in 0..directions.count() {
+    /// Evaluates the model in a range of the directions; `is_over` is asked now and then whether to stop, and what is missing
+    /// then is missing at the end.
+    pub fn evaluate(
+        &self,
+        directions: &Directions,
+        range: Range<usize>,
+        log10: bool,
+        is_over: impl Fn() -> bool,
+    ) -> LinearEvaluation {
+        let mut columns = Columns::new(&Component::ALL, range.len(), log10);
+        let mut delta_on = Vec::with_capacity(range.len());
+        for index in range {
+            if index % BETWEEN_LOOKS == 0 && is_over() {
+                break;
+            }
             let (theta_i, theta_r, phi_r) = directions.angles(index);
             let model = LinearModel {
                 strengths: Strengths {
@@ -201,14 +215,14 @@ mod tests {
             wavelength: Wavelength::new(0.5).unwrap(),
             matching: Match::Curvature,
         };
-        let answer = scene(patch).evaluate(&mirror_and_grazing(), true);
+        let answer = scene(patch).evaluate(&mirror_and_grazing(), 0..2, true, || false);
         // 2 + 3/cos 60° + 5 in the mirror direction, to the bound that comes with it.
         assert!((answer.total[0] - 13.0).abs() <= 13.0 * answer.relative_error_bound[0]);
         assert_eq!(answer.delta_on, [true, false]);
         assert!(answer.total[1].is_infinite());
         assert_eq!(answer.diagnostics[0].index, 1);
         assert_eq!(answer.diagnostics[0].code.name(), "grazing_divergence");
-        let delta = scene(SpikeShape::Delta).evaluate(&mirror_and_grazing(), false);
+        let delta = scene(SpikeShape::Delta).evaluate(&mirror_and_grazing(), 0..2, false, || false);
         assert!((delta.total[0] - 8.0).abs() <= 8.0 * delta.relative_error_bound[0]);
         assert_eq!(delta.components[2].values, [0.0, 0.0]);
     }

@@ -136,6 +136,18 @@ impl Stretch {
         }
     }
 
+    /// Its parts; `before` directions stand before those that it was evaluated of.
+    pub fn into_parts_after(mut self, before: usize) -> Parts {
+        for diagnostic in &mut self.columns.diagnostics {
+            diagnostic.index += before;
+        }
+        for concern in [&mut self.tally.out_of_range, &mut self.tally.underflow, &mut self.tally.tolerance] {
+            concern.shift(before);
+        }
+        self.first += before;
+        self.into_parts()
+    }
+
     /// Its parts.
     pub fn into_parts(self) -> Parts {
         let Columns { total, log10_total, components, relative_error_bound, diagnostics, .. } = self.columns;

@@ -74,9 +74,22 @@ fn head_is_get_without_the_body() {
 fn an_unacceptable_accept_is_told_what_is_offered() {
     let server = Server::start();
     for (method, path, offered) in [
-        ("POST", "/v1/radiance", "application/json"),
-        ("POST", "/v1/diagrams", "application/json, text/csv"),
-        ("GET", "/v1/figures/18", "application/json, text/csv"),
+        (
+            "POST",
+            "/v1/radiance",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+        ),
+        ("POST", "/v1/plan", "application/json"),
+        (
+            "POST",
+            "/v1/diagrams",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+        ),
+        (
+            "GET",
+            "/v1/figures/18",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+        ),
     ] {
         let request = server.request(method, path).header("accept", "image/png");
         let document =
@@ -135,7 +148,7 @@ fn the_root_leads_to_the_reference() {
 
 #[test]
 fn a_client_that_stops_sending_is_let_go() {
-    let server = Server::with(&["--request-timeout-seconds", "0.3"]);
+    let server = Server::with(&["--request-timeout-seconds", "0.3", "--idle-timeout-seconds", "0.3"]);
     let head = "POST /v1/radiance HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: 100\r\n\r\n{";
     let stalled = |sent: &str| {
         let mut stream = TcpStream::connect(server.address()).unwrap();

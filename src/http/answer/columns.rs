@@ -1,8 +1,9 @@
 //! The columns of a curve: which there are, and their numbers in the same order.
 
-use crate::reflectance::evaluate::{EvaluatedBy, Tally};
-use crate::reflectance::evaluate::{Output, Parts, Quantity};
+use crate::reflectance::columns::ComponentColumn;
+use crate::reflectance::evaluate::{EvaluatedBy, Output, Parts, Quantity, Tally};
 use crate::reflectance::findings::Diagnostic;
+use crate::reflectance::linear_image::LinearEvaluation;
 use crate::reflectance::scene::Component;
 
 /// Name and unit of every column of numbers of a curve with these components.
@@ -28,22 +29,45 @@ pub(super) fn headings(
 pub(super) struct Stretch {
     /// In the order of [`headings`].
     pub(super) numbers: Vec<Vec<f64>>,
+    /// What evaluated each direction, if asked for.
     pub(super) method: Option<Vec<EvaluatedBy>>,
+    /// Whether each direction of a linear model meets the spike exactly.
+    pub(super) delta_on: Option<Vec<bool>>,
     pub(super) diagnostics: Vec<Diagnostic>,
     pub(super) tally: Tally,
 }
 
+/// Totals and components, then their logarithms.
+fn numbers(
+    total: Vec<f64>,
+    log10_total: Option<Vec<f64>>,
+    components: Vec<ComponentColumn>,
+) -> Vec<Vec<f64>> {
+    let mut numbers = vec![total];
+    let mut logarithms: Vec<_> = log10_total.into_iter().collect();
+    for column in components {
+        numbers.push(column.values);
+        logarithms.extend(column.log10);
+    }
+    numbers.append(&mut logarithms);
+    numbers
+}
+
 impl From<Parts> for Stretch {
     fn from(parts: Parts) -> Self {
-        let mut numbers = vec![parts.total];
-        let mut logarithms: Vec<_> = parts.log10_total.into_iter().collect();
-        for column in parts.components {
-            numbers.push(column.values);
-            logarithms.extend(column.log10);
-        }
-        numbers.append(&mut logarithms);
+        let mut numbers = numbers(parts.total, parts.log10_total, parts.components);
         numbers.push(parts.relative_error_bound);
         numbers.extend(parts.roughness_g);
-        Self { numbers, method: parts.method, diagnostics: parts.diagnostics, tally: parts.tally }
+        let (method, diagnostics, tally) = (parts.method, parts.diagnostics, parts.tally);
+        Self { numbers, method, delta_on: None, diagnostics, tally }
+    }
+}
+
+impl From<LinearEvaluation> for Stretch {
+    fn from(evaluation: LinearEvaluation) -> Self {
+        let mut numbers = numbers(evaluation.total, evaluation.log10_total, evaluation.components);
+        numbers.push(evaluation.relative_error_bound);
+        let (delta_on, diagnostics) = (Some(evaluation.delta_on), evaluation.diagnostics);
+        Self { numbers, method: None, delta_on, diagnostics, tally: Tally::default() }
     }
 }

@@ -4,15 +4,20 @@ use super::columns::{Stretch, headings};
 use super::output::{End, Output};
 use super::text::Text;
 use super::work::{Curve, Over, Work};
+use crate::http::compute::job::Job;
 use crate::http::problem::Problem;
 use crate::reflectance::diagram::Sweep;
-use crate::reflectance::evaluate::{EvaluatedBy, Tally};
+use crate::reflectance::evaluate::Tally;
 use futures_util::{StreamExt as _, pin_mut};
 use std::sync::Arc;
 
+/// Bytes about as many as an answer has besides its numbers, and for each row.
+const BESIDES: usize = 2048;
+const A_ROW: usize = 80;
+
 /// A small answer, at once.
 pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
-    let mut text = Text::with_capacity(2048 + 80 * work.rows());
+    let mut text = Text::with_capacity(BESIDES + A_ROW * work.rows());
     begin(work, &mut text);
     if let Over::Sweep(sweep) = &work.over {
         text.numbers(sweep.positions(), true);
@@ -20,22 +25,18 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
     }
     for index in 0..work.curves() {
         let curve = work.prepare(index)?;
-        let stretch = curve.prepared.stretch(&curve.directions, 0..curve.directions.count(), || false);
-        let stretch = Stretch::from(stretch.into_parts());
+        let stretch = work.stretch(&curve, 0..work.points(), || false)?;
         begin_curve(&curve, index, &mut text);
-        for ((name, _), numbers) in names(&curve).into_iter().zip(&stretch.numbers) {
-            text.name(name);
-            text.push("[");
-            text.numbers(numbers, true);
-            text.push("]");
+        for (name, numbers) in names(work, &curve).zip(&stretch.numbers) {
+            text.list(name, |text| text.numbers(numbers, true));
         }
         if let Some(method) = &stretch.method {
-            text.name("method");
-            text.push("[");
-            text.methods(method, true);
-            text.push("]");
+            text.list("method", |text| text.methods(method, true));
         }
-        text.findings(&curve.prepared, stretch.tally)?;
+        if let Some(delta_on) = &stretch.delta_on {
+            text.list("delta_on", |text| text.booleans(delta_on, true));
+        }
+        text.findings(&curve.model, stretch.tally)?;
         text.name("diagnostics");
         text.push("[");
         text.diagnostics(&stretch.diagnostics, true)?;
@@ -51,111 +52,109 @@ pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
     let mut text = Text::default();
     begin(&work, &mut text);
     if let Over::Sweep(sweep) = &work.over {
-        let pieces = work.pieces(sweep.positions().len()).map(|range| {
-            let sweep = Arc::clone(sweep);
-            move |_: &_| {
-                let mut text = Text::default();
-                let first = range.start == 0;
-                text.numbers(&sweep.positions()[range], first);
-                text
-            }
-        });
-        output.send(std::mem::take(&mut text.0)).await?;
-        send_all(&output, pieces).await?;
+        let positions = sweep.positions().to_vec();
+        send_list(
+            &output,
+            &mut text,
+            positions.chunks(AT_A_TIME).map(<[f64]>::to_vec),
+            |text, numbers, first| {
+                text.numbers(&numbers, first);
+            },
+        )
+        .await?;
         between(sweep, &mut text);
     }
     for index in 0..work.curves() {
         let prepare = Arc::clone(&work);
         let curve = output.run(move |_| prepare.prepare(index)).await??;
         begin_curve(&curve, index, &mut text);
-        stream_curve(&work, curve, &mut text, &output).await?;
+        stream_curve(&work, &curve, &mut text, &output).await?;
+        end_curve(&curve, &mut text);
     }
     end(&work, &mut text);
     output.send(text.0).await
 }
 
+/// Numbers of an axis that are written at a time.
+const AT_A_TIME: usize = 16 << 10;
+
 /// One curve: the total as it is evaluated; the other columns are kept until it is out.
-async fn stream_curve(work: &Work, curve: Curve, text: &mut Text, output: &Output) -> Result<(), End> {
-    let names = names(&curve);
-    let mut names = names.into_iter().map(|(name, _)| name);
+async fn stream_curve(work: &Arc<Work>, curve: &Curve, text: &mut Text, output: &Output) -> Result<(), End> {
+    let mut names = names(work, curve);
     text.name(names.next().unwrap_or_default());
     text.push("[");
-    output.send(std::mem::take(&mut text.0)).await?;
+    output.send(text.take()).await?;
     let mut kept: Vec<Stretch> = Vec::new();
     let mut tally = Tally::default();
     {
-        let evaluated = output.run_all(work.pieces(curve.directions.count()).map(|range| {
-            let curve = curve.clone();
-            move |job: &crate::http::compute::job::Job| {
+        let evaluated = output.run_all(work.pieces().map(|range| {
+            let (work, curve) = (Arc::clone(work), curve.clone());
+            move |job: &Job| {
                 let first = range.start == 0;
-                let stretch = curve.prepared.stretch(&curve.directions, range, || job.is_stopped());
-                let mut stretch = Stretch::from(stretch.into_parts());
+                let mut stretch = work.stretch(&curve, range, || job.is_stopped())?;
                 let mut text = Text::default();
                 text.numbers(&std::mem::take(&mut stretch.numbers[0]), first);
-                (text, stretch)
+                Ok::<_, Problem>((text, stretch))
             }
         }));
         pin_mut!(evaluated);
         while let Some(part) = evaluated.next().await {
-            let (text, stretch) = part?;
+            let (text, stretch) = part??;
             tally.append(&stretch.tally);
             kept.push(stretch);
             output.send(text.0).await?;
         }
     }
+    text.push("]");
     for (column, name) in (1..).zip(names) {
-        text.push("]");
         text.name(name);
         text.push("[");
-        output.send(std::mem::take(&mut text.0)).await?;
-        let pieces = kept.iter_mut().enumerate().map(|(place, stretch)| {
-            let numbers = std::mem::take(&mut stretch.numbers[column]);
-            move |_: &_| {
-                let mut text = Text::default();
-                text.numbers(&numbers, place == 0);
-                text
-            }
-        });
-        send_all(output, pieces).await?;
-    }
-    text.push("]");
-    if kept.first().is_some_and(|stretch| stretch.method.is_some()) {
-        text.name("method");
-        text.push("[");
-        output.send(std::mem::take(&mut text.0)).await?;
-        let pieces = kept.iter_mut().enumerate().map(|(place, stretch)| {
-            let method: Vec<EvaluatedBy> = stretch.method.take().unwrap_or_default();
-            move |_: &_| {
-                let mut text = Text::default();
-                text.methods(&method, place == 0);
-                text
-            }
-        });
-        send_all(output, pieces).await?;
+        let columns = kept.iter_mut().map(|stretch| std::mem::take(&mut stretch.numbers[column]));
+        send_list(output, text, columns, |text, numbers, first| text.numbers(&numbers, first)).await?;
         text.push("]");
     }
-    text.findings(&curve.prepared, tally)?;
+    if kept.iter().all(|stretch| stretch.method.is_some()) {
+        text.name("method");
+        text.push("[");
+        let columns = kept.iter_mut().filter_map(|stretch| stretch.method.take());
+        send_list(output, text, columns, |text, methods, first| text.methods(&methods, first)).await?;
+        text.push("]");
+    }
+    if kept.iter().all(|stretch| stretch.delta_on.is_some()) {
+        text.name("delta_on");
+        text.push("[");
+        let columns = kept.iter_mut().filter_map(|stretch| stretch.delta_on.take());
+        send_list(output, text, columns, |text, booleans, first| text.booleans(&booleans, first)).await?;
+        text.push("]");
+    }
+    text.findings(&curve.model, tally)?;
     text.name("diagnostics");
     text.push("[");
     let mut first = true;
-    for stretch in kept {
-        if !stretch.diagnostics.is_empty() {
-            text.diagnostics(&stretch.diagnostics, first)?;
-            first = false;
-            output.send(std::mem::take(&mut text.0)).await?;
-        }
+    for stretch in kept.into_iter().filter(|stretch| !stretch.diagnostics.is_empty()) {
+        text.diagnostics(&stretch.diagnostics, first)?;
+        first = false;
+        output.send(text.take()).await?;
     }
     text.push("]");
-    end_curve(&curve, text);
     Ok(())
 }
 
-/// Makes texts side by side and sends them in order.
-async fn send_all<W>(output: &Output, pieces: impl Iterator<Item = W> + Send) -> Result<(), End>
-where
-    W: FnOnce(&crate::http::compute::job::Job) -> Text + Send + 'static,
-{
-    let texts = output.run_all(pieces);
+/// Sends what is written so far and then a list, whose parts are written side by side.
+async fn send_list<P: Send + 'static>(
+    output: &Output,
+    text: &mut Text,
+    parts: impl Iterator<Item = P> + Send,
+    write: impl Fn(&mut Text, P, bool) + Send + Sync + Copy + 'static,
+) -> Result<(), End> {
+    output.send(text.take()).await?;
+    let texts = output.run_all(parts.enumerate().map(|(place, part)| {
+        move |_: &Job| {
+            let mut text = Text::default();
+            write(&mut text, part, place == 0);
+            text
+        }
+    }));
     pin_mut!(texts);
     while let Some(text) = texts.next().await {
         output.send(text?.0).await?;
@@ -163,16 +162,15 @@ where
     Ok(())
 }
 
-fn names(curve: &Curve) -> Vec<(&'static str, &'static str)> {
-    let prepared = &curve.prepared;
-    headings(prepared.components(), prepared.quantity(), prepared.output())
+fn names(work: &Work, curve: &Curve) -> impl Iterator<Item = &'static str> + use<> {
+    headings(curve.components(), work.quantity(), work.output()).into_iter().map(|(name, _)| name)
 }
 
 fn begin(work: &Work, text: &mut Text) {
     text.push("{\"quantity\":\"");
-    text.push(work.quantity.name());
+    text.push(work.quantity().name());
     text.push("\",\"unit\":\"");
-    text.push(work.quantity.unit());
+    text.push(work.quantity().unit());
     text.push("\"");
     if let Over::Sweep(sweep) = &work.over {
         text.push(",\"axis\":{\"name\":\"");

@@ -1,9 +1,10 @@
 //! Answers as rows: angles, then the columns of numbers, then methods. Nothing is kept of a stretch once it is written.
 
-use super::columns::{Stretch, headings};
+use super::columns::headings;
 use super::output::{End, Output};
-use super::work::{Curve, Over, Work};
+use super::work::{Curve, Model, Over, Subject, Work};
 use crate::http::api::answer::{OmittedAnswer, WarningAnswer};
+use crate::http::compute::job::Job;
 use crate::http::encode::rows::{Cells, Head, Heading, Kind, RowFormat, Rows};
 use crate::http::problem::Problem;
 use crate::reflectance::directions::AngleColumn;
@@ -35,9 +36,8 @@ pub(super) fn whole(work: &Work, format: RowFormat) -> Result<Vec<u8>, Problem> 
     let curves = (0..work.curves()).map(|index| work.prepare(index)).collect::<Result<_, _>>()?;
     let table = Table::new(work, format, curves)?;
     let mut bytes = format.head(&table.head)?;
-    for index in 0..work.curves() {
-        let count = table.curves[index].directions.count();
-        bytes.append(&mut table.rows(work, index, 0..count, || false)?);
+    for curve in &table.curves {
+        bytes.append(&mut table.rows(work, curve, 0..work.points(), || false)?);
     }
     bytes.append(&mut format.tail(&table.head)?);
     Ok(bytes)
@@ -49,7 +49,7 @@ pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -
     {
         let prepared = output.run_all((0..work.curves()).map(|index| {
             let work = Arc::clone(&work);
-            move |_: &_| work.prepare(index)
+            move |_: &Job| work.prepare(index)
         }));
         pin_mut!(prepared);
         while let Some(curve) = prepared.next().await {
@@ -60,49 +60,48 @@ pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -
     output.send(format.head(&table.head)?).await?;
     let pieces = (0..work.curves()).flat_map(|index| {
         let (work, table) = (Arc::clone(&work), Arc::clone(&table));
-        let count = table.curves[index].directions.count();
-        work.pieces(count).map(move |range| {
+        work.pieces().map(move |range| {
             let (work, table) = (Arc::clone(&work), Arc::clone(&table));
-            move |job: &crate::http::compute::job::Job| table.rows(&work, index, range, || job.is_stopped())
+            move |job: &Job| table.rows(&work, &table.curves[index], range, || job.is_stopped())
         })
     });
-    let rows = output.run_all(pieces);
-    pin_mut!(rows);
-    while let Some(rows) = rows.next().await {
-        output.send(rows??).await?;
+    {
+        let rows = output.run_all(pieces);
+        pin_mut!(rows);
+        while let Some(rows) = rows.next().await {
+            output.send(rows??).await?;
+        }
     }
     output.send(format.tail(&table.head)?).await
 }
 
 impl Table {
     fn new(work: &Work, format: RowFormat, curves: Vec<Curve>) -> Result<Self, Problem> {
-        let number = |name, unit| Heading { name, unit, kind: Kind::Number };
-        let mut columns: Vec<Heading> = match &work.over {
-            Over::Directions(_) => ["theta_i_deg", "theta_r_deg", "phi_r_deg"].map(angle).to_vec(),
-            Over::Sweep(sweep) => {
-                [sweep.axis().fixed_name(), sweep.axis().name(), "phi_r_deg"].map(angle).to_vec()
-            }
+        let angles = match &work.over {
+            Over::Directions(_) => ["theta_i_deg", "theta_r_deg", "phi_r_deg"],
+            Over::Sweep(sweep) => [sweep.axis().fixed_name(), sweep.axis().name(), "phi_r_deg"],
         };
-        let evaluated = |component: &Component| {
-            curves.iter().any(|curve| curve.prepared.components().contains(component))
-        };
+        let evaluated =
+            |component: &Component| curves.iter().any(|curve| curve.components().contains(component));
         let components: Vec<Component> = Component::ALL.into_iter().filter(evaluated).collect();
-        let names = headings(&components, work.quantity, work.output);
-        columns.extend(names.into_iter().map(|(name, unit)| number(name, unit)));
-        if work.output.per_direction {
-            let longest = EvaluatedBy::ALL.iter().map(|method| method.name().len()).max().unwrap_or(0);
-            columns.push(Heading { name: "method", unit: "", kind: Kind::Text { longest } });
-        }
-        let notes: Vec<Note> = curves
-            .iter()
-            .map(|curve| Note {
-                at_deg: curve.at_deg,
-                omitted: curve.prepared.omitted().iter().cloned().map(OmittedAnswer::from).collect(),
-                warnings: curve.prepared.warnings().iter().cloned().map(WarningAnswer::from).collect(),
-            })
+        let names = headings(&components, work.quantity(), work.output());
+        let mut columns: Vec<Heading> = angles
+            .map(|name| (name, "degrees"))
+            .into_iter()
+            .chain(names)
+            .map(|(name, unit)| Heading { name, unit, kind: Kind::Number })
             .collect();
+        let text = |name, longest| Heading { name, unit: "", kind: Kind::Text { longest } };
+        if work.output().per_direction {
+            let longest = EvaluatedBy::ALL.iter().map(|method| method.name().len()).max().unwrap_or(0);
+            columns.push(text("method", longest));
+        }
+        if let Subject::Linear { .. } = work.subject {
+            columns.push(text("delta_on", "false".len()));
+        }
+        let notes: Vec<Note> = curves.iter().map(Note::of).collect();
         let series = serde_json::to_string(&notes).map_err(|error| Problem::unwritten(&error))?;
-        let notes = vec![("quantity", work.quantity.name().to_owned()), ("series", series)];
+        let notes = vec![("quantity", work.quantity().name().to_owned()), ("series", series)];
         Ok(Self { format, head: Head { columns, rows: work.rows(), notes }, curves })
     }
 
@@ -110,28 +109,24 @@ impl Table {
     fn rows(
         &self,
         work: &Work,
-        index: usize,
+        curve: &Curve,
         range: Range<usize>,
         is_over: impl Fn() -> bool,
     ) -> Result<Vec<u8>, Problem> {
-        let curve = &self.curves[index];
-        let stretch = curve.prepared.stretch(&curve.directions, range.clone(), &is_over);
+        let stretch = work.stretch(curve, range.clone(), &is_over)?;
         if is_over() {
             // Nobody waits for it, and it may have holes.
             return Ok(Vec::new());
         }
-        let stretch = Stretch::from(stretch.into_parts());
-        let names = headings(curve.prepared.components(), work.quantity, work.output);
-        let angles = match &work.over {
-            Over::Directions(directions) => directions.columns(range.clone()),
-            Over::Sweep(sweep) => [
-                AngleColumn::One(curve.at_deg.unwrap_or(f64::NAN)),
-                AngleColumn::Each(sweep.positions()[range.clone()].to_vec()),
-                AngleColumn::One(sweep.phi_r()),
-            ],
+        let names = headings(curve.components(), work.quantity(), work.output());
+        let angles = work.angles(curve, range.clone());
+        let texts: Option<Vec<&'static str>> = match (&stretch.method, &stretch.delta_on) {
+            (Some(methods), _) => Some(methods.iter().map(|method| method.name()).collect()),
+            (None, Some(delta_on)) => {
+                Some(delta_on.iter().map(|&is_on| if is_on { "true" } else { "false" }).collect())
+            }
+            (None, None) => None,
         };
-        let methods: Option<Vec<&'static str>> =
-            stretch.method.map(|methods| methods.into_iter().map(EvaluatedBy::name).collect());
         let mut columns: Vec<Cells> = angles
             .iter()
             .map(|angle| match angle {
@@ -141,10 +136,10 @@ impl Table {
             .collect();
         for heading in &self.head.columns[columns.len()..] {
             let place = names.iter().position(|(name, _)| *name == heading.name);
-            columns.push(match (place, &methods) {
-                (Some(place), _) => Cells::Numbers(&stretch.numbers[place]),
-                (None, Some(methods)) if heading.name == "method" => Cells::Names(methods),
-                (None, _) => Cells::Absent,
+            columns.push(match (heading.kind, place, &texts) {
+                (Kind::Number, Some(place), _) => Cells::Numbers(&stretch.numbers[place]),
+                (Kind::Text { .. }, _, Some(texts)) => Cells::Names(texts),
+                _ => Cells::Absent,
             });
         }
         let mut bytes = Vec::new();
@@ -153,6 +148,16 @@ impl Table {
     }
 }
 
-fn angle(name: &'static str) -> Heading {
-    Heading { name, unit: "degrees", kind: Kind::Number }
+impl Note {
+    fn of(curve: &Curve) -> Self {
+        let (omitted, warnings) = match &curve.model {
+            Model::Scene(prepared) => (prepared.omitted(), prepared.warnings()),
+            Model::Linear { .. } => (&[][..], &[][..]),
+        };
+        Self {
+            at_deg: curve.at_deg,
+            omitted: omitted.iter().cloned().map(OmittedAnswer::from).collect(),
+            warnings: warnings.iter().cloned().map(WarningAnswer::from).collect(),
+        }
+    }
 }

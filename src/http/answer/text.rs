@@ -1,8 +1,9 @@
 //! Answers as JSON text, in parts that can be written one by one: the names and numbers of one curve.
 
+use super::work::Model;
 use crate::http::api::answer::{DiagnosticAnswer, OmittedAnswer, WarningAnswer};
 use crate::http::problem::Problem;
-use crate::reflectance::evaluate::{EvaluatedBy, Prepared, Tally};
+use crate::reflectance::evaluate::{EvaluatedBy, Tally};
 use crate::reflectance::findings::Diagnostic;
 use serde::Serialize;
 
@@ -24,12 +25,26 @@ impl Text {
 
     /// `,"name":`, where something stands before it.
     pub(super) fn name(&mut self, name: &str) {
-        if !matches!(self.0.last(), None | Some(b'{')) {
+        // Between two parts of an answer nothing is written: what stands before ends in a bracket then.
+        if !matches!(self.0.last(), Some(b'{')) {
             self.0.push(b',');
         }
         self.0.push(b'"');
         self.push(name);
         self.push("\":");
+    }
+
+    /// What is written so far.
+    pub(super) fn take(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.0)
+    }
+
+    /// `"name":[…]`
+    pub(super) fn list(&mut self, name: &str, elements: impl FnOnce(&mut Self)) {
+        self.name(name);
+        self.push("[");
+        elements(self);
+        self.push("]");
     }
 
     /// Numbers with commas between them, and one before them unless they are the first.
@@ -70,8 +85,20 @@ impl Text {
         serde_json::to_writer(&mut self.0, value).map_err(|error| Problem::unwritten(&error))
     }
 
+    /// Booleans, likewise.
+    pub(super) fn booleans(&mut self, booleans: &[bool], first: bool) {
+        for (index, boolean) in booleans.iter().enumerate() {
+            if index > 0 || !first {
+                self.0.push(b',');
+            }
+            self.push(if *boolean { "true" } else { "false" });
+        }
+    }
+
     /// What is counted over a curve, up to its diagnostics.
-    pub(super) fn findings(&mut self, prepared: &Prepared, tally: Tally) -> Result<(), Problem> {
+    pub(super) fn findings(&mut self, model: &Model, tally: Tally) -> Result<(), Problem> {
+        // A linear model has one way to be evaluated, and leaves nothing out.
+        let Model::Scene(prepared) = model else { return Ok(()) };
         self.name("methods");
         self.push("{");
         for (method, count) in tally.methods() {

@@ -1,16 +1,22 @@
 //! What is to be evaluated for one answer: a scene over directions, or over the curves of a sweep.
 
+use super::columns::Stretch;
 use crate::http::app::Limits;
+use crate::http::edge::Meter;
 use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
-use crate::reflectance::directions::Directions;
+use crate::reflectance::directions::{AngleColumn, Directions};
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
-use crate::reflectance::scene::Scene;
+use crate::reflectance::linear_image::LinearScene;
+use crate::reflectance::quantity::OutOfBounds;
+use crate::reflectance::scene::{Component, Scene};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Nanoseconds of one vectorised exponential, the unit of [`expected_cost`].
 const EXPONENTIAL: f64 = 3.5;
+/// Nanoseconds of a direction of a linear model.
+const LINEAR: f64 = 400.0;
 /// Nanoseconds of one number in an answer, written as text.
 const NUMBER: f64 = 30.0;
 /// Nanoseconds of a piece of work for the pool: a change of threads costs a fortieth of it.
@@ -22,17 +28,24 @@ const MOST_ROWS: usize = 16 << 10;
 /// What is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Work {
-    pub(crate) scene: Arc<Scene>,
-    pub(crate) quantity: Quantity,
-    pub(crate) output: Output,
-    pub(crate) over: Over,
+    pub(super) subject: Subject,
+    pub(super) over: Over,
+    /// Counts what is evaluated.
+    pub(super) meter: Meter,
+}
+
+/// Of what.
+#[derive(Clone, Debug)]
+pub(crate) enum Subject {
+    Scene { scene: Box<Scene>, quantity: Quantity, output: Output },
+    Linear { scene: Arc<LinearScene>, log10: bool },
 }
 
 /// Where.
 #[derive(Clone, Debug)]
 pub(crate) enum Over {
-    Directions(Arc<Directions>),
-    Sweep(Arc<Sweep>),
+    Directions(Box<Directions>),
+    Sweep(Box<Sweep>),
 }
 
 /// One curve made ready; directions without a sweep are one curve.
@@ -40,11 +53,21 @@ pub(crate) enum Over {
 pub(super) struct Curve {
     /// The fixed angle of a sweep.
     pub(super) at_deg: Option<f64>,
-    pub(super) directions: Arc<Directions>,
-    pub(super) prepared: Arc<Prepared>,
+    pub(super) model: Model,
+}
+
+/// What makes the numbers of a curve.
+#[derive(Clone, Debug)]
+pub(super) enum Model {
+    Scene(Arc<Prepared>),
+    Linear { scene: Arc<LinearScene>, log10: bool },
 }
 
 impl Work {
+    pub(crate) fn new(subject: Subject, over: Over) -> Self {
+        Self { subject, over, meter: Meter::default() }
+    }
+
     pub(super) fn rows(&self) -> usize {
         match &self.over {
             Over::Directions(directions) => directions.count(),
@@ -52,18 +75,12 @@ impl Work {
         }
     }
 
-    /// What is wrong with it by the limits of this service, which may be below those of the document.
-    pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
-        let (pointer, what, limit) = match self.over {
-            Over::Directions(_) => ("/geometry", "directions", limits.directions),
-            Over::Sweep(_) => ("/at_deg", "rows, points times fixed angles,", limits.rows),
-        };
-        let rows = self.rows();
-        if rows <= limit {
-            return Ok(());
+    /// Rows of each curve.
+    pub(super) fn points(&self) -> usize {
+        match &self.over {
+            Over::Directions(directions) => directions.count(),
+            Over::Sweep(sweep) => sweep.positions().len(),
         }
-        let detail = format!("{rows} {what} in one request: at most {limit} are answered at once");
-        Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
     }
 
     pub(super) fn curves(&self) -> usize {
@@ -73,38 +90,132 @@ impl Work {
         }
     }
 
-    /// The directions of a curve, `index` below [`Self::curves`].
-    pub(super) fn directions(&self, index: usize) -> Result<Arc<Directions>, Problem> {
-        match &self.over {
-            Over::Directions(directions) => Ok(Arc::clone(directions)),
-            Over::Sweep(sweep) => sweep.directions(sweep.at()[index]).map(Arc::new).map_err(|error| {
-                tracing::error!(%error, "a checked sweep left its range");
-                Problem::internal()
-            }),
+    pub(super) fn quantity(&self) -> Quantity {
+        match self.subject {
+            Subject::Scene { quantity, .. } => quantity,
+            Subject::Linear { .. } => Quantity::ImageIrradiance { factor: 1.0 },
         }
     }
 
-    /// Finds what a curve requires.
+    pub(super) fn output(&self) -> Output {
+        match self.subject {
+            Subject::Scene { output, .. } => output,
+            Subject::Linear { log10, .. } => Output { log10, per_direction: false },
+        }
+    }
+
+    /// What is wrong with it by the limits of this service, which may be below those of the document.
+    pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
+        let (pointer, what, limit) = match self.over {
+            Over::Directions(_) => ("/geometry", "directions", limits.directions),
+            Over::Sweep(_) => ("/at_deg", "rows (points times fixed angles)", limits.rows),
+        };
+        let rows = self.rows();
+        if rows <= limit {
+            return Ok(());
+        }
+        let detail = format!("{rows} {what} in one request: at most {limit} are answered");
+        Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
+    }
+
+    /// Finds what a curve requires, `index` below [`Self::curves`].
     pub(super) fn prepare(&self, index: usize) -> Result<Curve, Problem> {
-        let directions = self.directions(index)?;
-        let prepared = Prepared::new(&self.scene, &directions, self.quantity, self.output);
         let at_deg = match &self.over {
             Over::Directions(_) => None,
             Over::Sweep(sweep) => Some(sweep.at()[index]),
         };
-        Ok(Curve { at_deg, directions, prepared: Arc::new(prepared) })
+        let model = match &self.subject {
+            Subject::Linear { scene, log10 } => Model::Linear { scene: Arc::clone(scene), log10: *log10 },
+            Subject::Scene { scene, quantity, output } => {
+                let prepared = |directions: &_| Prepared::new(scene, directions, *quantity, *output);
+                Model::Scene(Arc::new(match &self.over {
+                    Over::Directions(directions) => prepared(directions),
+                    Over::Sweep(sweep) => {
+                        let all = 0..sweep.positions().len();
+                        prepared(&sweep.directions(sweep.at()[index], all).map_err(left_range)?)
+                    }
+                }))
+            }
+        };
+        Ok(Curve { at_deg, model })
+    }
+
+    /// Evaluates a range of a curve's points; `is_over` says whether to stop.
+    pub(super) fn stretch(
+        &self,
+        curve: &Curve,
+        range: Range<usize>,
+        is_over: impl Fn() -> bool,
+    ) -> Result<Stretch, Problem> {
+        let (before, part);
+        let (directions, range) = match &self.over {
+            Over::Directions(directions) => {
+                before = 0;
+                (directions.as_ref(), range)
+            }
+            Over::Sweep(sweep) => {
+                before = range.start;
+                let at = curve.at_deg.unwrap_or_default();
+                part = sweep.directions(at, range.clone()).map_err(left_range)?;
+                (&part, 0..range.len())
+            }
+        };
+        let stretch: Stretch = match &curve.model {
+            Model::Scene(prepared) => {
+                prepared.stretch(directions, range, is_over).into_parts_after(before).into()
+            }
+            Model::Linear { scene, log10 } => {
+                let mut evaluation = scene.evaluate(directions, range, *log10, is_over);
+                evaluation.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.index += before);
+                evaluation.into()
+            }
+        };
+        self.meter.add(&stretch.tally);
+        Ok(stretch)
+    }
+
+    /// The three angles of a range of a curve's points: θ_i, θ_r and φ_r, or the fixed and the swept angle and φ_r.
+    pub(super) fn angles(&self, curve: &Curve, range: Range<usize>) -> [AngleColumn; 3] {
+        match &self.over {
+            Over::Directions(directions) => directions.columns(range),
+            Over::Sweep(sweep) => [
+                AngleColumn::One(curve.at_deg.unwrap_or_default()),
+                AngleColumn::Each(sweep.positions()[range].to_vec()),
+                AngleColumn::One(sweep.phi_r()),
+            ],
+        }
     }
 
     /// Nanoseconds of one row, before what it requires is known: good to a factor of two.
     pub(super) fn nanoseconds_a_row(&self) -> f64 {
-        let numbers = if self.output.log10 { 8.0 } else { 4.0 };
-        EXPONENTIAL * expected_cost(&self.scene, self.output) + NUMBER * numbers
+        let numbers = if self.output().log10 { 8.0 } else { 4.0 };
+        let evaluation = match &self.subject {
+            Subject::Scene { scene, output, .. } => EXPONENTIAL * expected_cost(scene, *output),
+            Subject::Linear { .. } => LINEAR,
+        };
+        evaluation + NUMBER * numbers
     }
 
-    /// The ranges of so many rows that are about a millisecond of work each.
-    pub(super) fn pieces(&self, rows: usize) -> impl Iterator<Item = Range<usize>> + Send + use<> {
+    /// The ranges of a curve's points that are about a millisecond of work each.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Range<usize>> + Send + use<> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped at once")]
         let piece = ((PIECE / self.nanoseconds_a_row()) as usize).clamp(LEAST_ROWS, MOST_ROWS);
-        (0..rows).step_by(piece).map(move |first| first..rows.min(first + piece))
+        let points = self.points();
+        (0..points).step_by(piece).map(move |first| first..points.min(first + piece))
     }
+}
+
+impl Curve {
+    /// The components that are evaluated, in the model's order.
+    pub(super) fn components(&self) -> &[Component] {
+        match &self.model {
+            Model::Scene(prepared) => prepared.components(),
+            Model::Linear { .. } => &Component::ALL,
+        }
+    }
+}
+
+fn left_range(error: OutOfBounds) -> Problem {
+    tracing::error!(%error, "a checked sweep left its range");
+    Problem::internal()
 }

@@ -1,7 +1,6 @@
 //! What `/v1/radiance` and `/v1/brdf` answer.
 
 use crate::http::encode::numbers::Numbers;
-use crate::reflectance::evaluate::{ComponentColumn, EvaluatedBy, Evaluation, Quantity};
 use crate::reflectance::findings::{Diagnostic, Omitted, Warning, WarningCode};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -10,7 +9,8 @@ use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
 
 /// Values in each direction, in the order of the request's arrays. A value that is infinite or undefined is null,
 /// and `diagnostics` says why. A value below the smallest 64-bit float is 0.
-#[derive(Serialize, ToSchema)]
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "for the document: answers are written column by column")]
 pub(crate) struct Answer {
     /// `radiance` or `brdf`.
     #[schema(example = "radiance")]
@@ -21,31 +21,24 @@ pub(crate) struct Answer {
     /// The sum of the components.
     total: Numbers,
     /// (57)
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     diffuse_lobe: Option<Numbers>,
     /// The second term of (47), or (70).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     specular_lobe: Option<Numbers>,
     /// The first term of (47).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     specular_spike: Option<Numbers>,
     /// Decimal logarithm of `total`; null where the value is exactly 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_total: Option<Numbers>,
     /// Decimal logarithm of `diffuse_lobe`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_diffuse_lobe: Option<Numbers>,
     /// Decimal logarithm of `specular_lobe`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_specular_lobe: Option<Numbers>,
     /// Decimal logarithm of `specular_spike`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_specular_spike: Option<Numbers>,
     /// Bound of the relative error of `total` against the exact value of the model for the numbers as given;
@@ -54,12 +47,10 @@ pub(crate) struct Answer {
     /// How many directions each method evaluated.
     methods: BTreeMap<&'static str, usize>,
     /// The method of each direction, if `output.per_direction` asks for it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     method: Option<Vec<&'static str>>,
     /// g of (34) in each direction, if `output.per_direction` asks for it; null, with a diagnostic, where the
     /// scene has no heights or wavelength.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     roughness_g: Option<Numbers>,
     /// Components that `components: "auto"` left out.
@@ -153,50 +144,5 @@ impl From<Warning> for WarningAnswer {
 impl From<Diagnostic> for DiagnosticAnswer {
     fn from(diagnostic: Diagnostic) -> Self {
         Self { index: diagnostic.index, code: diagnostic.code.name(), detail: diagnostic.code.detail() }
-    }
-}
-
-/// Values and logarithms of each component, in the order of `Component::ALL`.
-pub(super) fn by_component(columns: Vec<ComponentColumn>) -> [(Option<Numbers>, Option<Numbers>); 3] {
-    let mut found = [const { (None, None) }; 3];
-    for column in columns {
-        found[column.component as usize] = (Some(Numbers(column.values)), column.log10.map(Numbers));
-    }
-    found
-}
-
-impl Answer {
-    pub(crate) fn new(quantity: Quantity, evaluation: Evaluation) -> Self {
-        let [diffuse, lobe, spike] = by_component(evaluation.components);
-        Self {
-            quantity: quantity.name(),
-            unit: quantity.unit(),
-            total: Numbers(evaluation.total),
-            diffuse_lobe: diffuse.0,
-            specular_lobe: lobe.0,
-            specular_spike: spike.0,
-            log10_total: evaluation.log10_total.map(Numbers),
-            log10_diffuse_lobe: diffuse.1,
-            log10_specular_lobe: lobe.1,
-            log10_specular_spike: spike.1,
-            relative_error_bound: Numbers(evaluation.relative_error_bound),
-            methods: evaluation.methods.into_iter().map(|(method, count)| (method.name(), count)).collect(),
-            method: evaluation.method.map(|methods| methods.into_iter().map(EvaluatedBy::name).collect()),
-            roughness_g: evaluation.roughness_g.map(Numbers),
-            omitted: evaluation.omitted.into_iter().map(OmittedAnswer::from).collect(),
-            warnings: evaluation.warnings.into_iter().map(WarningAnswer::from).collect(),
-            diagnostics: evaluation.diagnostics.into_iter().map(DiagnosticAnswer::from).collect(),
-        }
-    }
-
-    /// About how many bytes it takes as JSON: a number has 17 digits, its exponent and a comma.
-    pub(crate) fn size_hint(&self) -> usize {
-        let columns = 2 + [&self.diffuse_lobe, &self.specular_lobe, &self.specular_spike, &self.roughness_g]
-            .iter()
-            .chain(&[&self.log10_total, &self.log10_diffuse_lobe])
-            .chain(&[&self.log10_specular_lobe, &self.log10_specular_spike])
-            .filter(|column| column.is_some())
-            .count();
-        1024 + 24 * columns * self.total.0.len() + 160 * self.diagnostics.len()
     }
 }

@@ -1,29 +1,26 @@
 //! `POST /v1/image-irradiance`: (51) through a camera, and the linear models (74) and (80).
 #![allow(non_snake_case, reason = "the strengths keep the report's symbols on the wire")]
 
-use super::answer::{Answer, DiagnosticAnswer, by_component};
+use super::answer::{Answer, DiagnosticAnswer};
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
 use super::scene::describes_patch;
+use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonBody;
-use crate::http::compute;
-use crate::http::encode::json;
 use crate::http::encode::numbers::Numbers;
 use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{Named, Schemas, Wire, mismatch, named, read_named};
-use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::directions::Directions;
-use crate::reflectance::evaluate::{Quantity, evaluate};
-use crate::reflectance::linear_image::{LinearEvaluation, LinearKind, LinearScene, SpikeShape};
+use crate::reflectance::evaluate::Quantity;
+use crate::reflectance::linear_image::{LinearKind, LinearScene, SpikeShape};
 use crate::reflectance::quantity::{FacetSlope, Strength};
 use crate::reflectance::scene::{Model, Sensor};
 use axum::response::Response;
-use serde::Serialize;
 use std::borrow::Cow;
+use std::sync::Arc;
 use utoipa::openapi::schema::Schema;
 use utoipa::openapi::{OneOfBuilder, RefOr};
 use utoipa::{PartialSchema, ToSchema};
@@ -189,7 +186,7 @@ fn without_model(object: Object, reader: &mut Reader) {
         }
     }
     fields.forget(&accepted);
-    fields.finish(reader, &accepted);
+    fields.finish(reader, || accepted);
 }
 
 /// Reads a radiance request whose sensor has to be a camera.
@@ -230,7 +227,8 @@ fn linear([diffuse_lobe, specular_lobe, specular_spike]: [Strength; 3], wire: Li
 }
 
 /// Image irradiance by a linear model.
-#[derive(Serialize, ToSchema)]
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "for the document: answers are written column by column")]
 pub(crate) struct LinearAnswer {
     /// Always `image_irradiance`.
     #[schema(example = "image_irradiance")]
@@ -247,19 +245,15 @@ pub(crate) struct LinearAnswer {
     /// Third term; 0 for a delta.
     specular_spike: Numbers,
     /// Decimal logarithm of `total`, if asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_total: Option<Numbers>,
     /// Decimal logarithm of `diffuse_lobe`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_diffuse_lobe: Option<Numbers>,
     /// Decimal logarithm of `specular_lobe`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_specular_lobe: Option<Numbers>,
     /// Decimal logarithm of `specular_spike`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     log10_specular_spike: Option<Numbers>,
     /// Bound of the relative error of `total`; null where none is known.
@@ -271,36 +265,10 @@ pub(crate) struct LinearAnswer {
     diagnostics: Vec<DiagnosticAnswer>,
 }
 
-impl LinearAnswer {
-    fn new(evaluation: LinearEvaluation) -> Self {
-        // The linear models always have all three.
-        let [diffuse, lobe, spike] = by_component(evaluation.components);
-        Self {
-            quantity: "image_irradiance",
-            unit: "W m^-2",
-            total: Numbers(evaluation.total),
-            diffuse_lobe: diffuse.0.unwrap_or_default(),
-            specular_lobe: lobe.0.unwrap_or_default(),
-            specular_spike: spike.0.unwrap_or_default(),
-            log10_total: evaluation.log10_total.map(Numbers),
-            log10_diffuse_lobe: diffuse.1,
-            log10_specular_lobe: lobe.1,
-            log10_specular_spike: spike.1,
-            relative_error_bound: Numbers(evaluation.relative_error_bound),
-            delta_on: evaluation.delta_on,
-            diagnostics: evaluation.diagnostics.into_iter().map(DiagnosticAnswer::from).collect(),
-        }
-    }
-
-    fn size_hint(&self) -> usize {
-        let columns = if self.log10_total.is_some() { 9 } else { 5 };
-        1024 + (24 * columns + 6) * self.total.0.len() + 160 * self.diagnostics.len()
-    }
-}
-
 /// Either answer.
-#[derive(Serialize, ToSchema)]
+#[derive(ToSchema)]
 #[serde(untagged)]
+#[expect(dead_code, reason = "for the document: answers are written column by column")]
 pub(crate) enum ImageAnswer {
     /// Of a camera.
     #[schema(title = "Camera")]
@@ -325,28 +293,23 @@ pub(crate) enum ImageAnswer {
     )
 )]
 pub(crate) async fn image_irradiance(
-    _: JsonOnly,
-    deadline: Deadline,
-    JsonBody { value: request, .. }: JsonBody<ImageRequest>,
+    call: Call,
+    JsonBody { value: request, turn }: JsonBody<ImageRequest>,
 ) -> Result<Response, Problem> {
-    let count = match &request {
-        ImageRequest::Camera { request, .. } => request.geometry.0.count(),
-        ImageRequest::Linear { directions, .. } => directions.count(),
-    };
-    compute::run(deadline, count, move || match request {
+    let work = match request {
         ImageRequest::Camera { request, factor } => {
-            let quantity = Quantity::ImageIrradiance { factor };
-            let output = OutputWire::chosen(request.output);
-            let answer =
-                Answer::new(quantity, evaluate(&request.scene.0, &request.geometry.0, quantity, output));
-            let size_hint = answer.size_hint();
-            json::response(&ImageAnswer::Camera(answer), size_hint)
+            let RadianceRequest { geometry, output, scene } = *request;
+            let subject = Subject::Scene {
+                scene: Box::new(scene.0),
+                quantity: Quantity::ImageIrradiance { factor },
+                output: OutputWire::chosen(output),
+            };
+            Work::new(subject, Over::Directions(Box::new(geometry.0)))
         }
         ImageRequest::Linear { scene, directions, log10 } => {
-            let answer = LinearAnswer::new(scene.evaluate(&directions, log10));
-            let size_hint = answer.size_hint();
-            json::response(&ImageAnswer::Linear(answer), size_hint)
+            let subject = Subject::Linear { scene: Arc::new(scene), log10 };
+            Work::new(subject, Over::Directions(Box::new(directions)))
         }
-    })
-    .await?
+    };
+    answer::respond(call, turn, work).await
 }

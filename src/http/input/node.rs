@@ -40,7 +40,7 @@ pub(crate) fn excerpt(text: &str) -> String {
     short
 }
 
-/// An array. Numbers beyond the largest accepted array are counted, not kept.
+/// An array. Elements beyond the largest accepted array are counted, not kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Array {
     /// The elements, NaN (which JSON cannot spell) where an element is not a number.
@@ -226,19 +226,19 @@ impl<'de> Visitor<'de> for Seed<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Node, A::Error> {
         let mut array = Array::default();
-        while let Some(element) = elements.next_element_seed(self)? {
+        while let Some(element) = elements.next_element_seed(ElementSeed(self))? {
             if array.length <= bounds::MAX_DIRECTIONS {
-                if let Node::Number(number) = element {
-                    array.numbers.push(number);
-                } else {
-                    self.pay()?;
-                    array.others.push((array.length, element));
-                    array.numbers.push(f64::NAN);
-                }
+                array.numbers.push(match element {
+                    Element::Number(number) => number,
+                    Element::Other(other) => {
+                        self.pay()?;
+                        array.others.push((array.length, *other));
+                        f64::NAN
+                    }
+                });
             }
             array.length += 1;
         }
-        array.numbers.shrink_to_fit();
         Ok(Node::Array(array))
     }
 
@@ -255,6 +255,73 @@ impl<'de> Visitor<'de> for Seed<'_> {
             }
         }
         Ok(Node::Object(object))
+    }
+}
+
+/// An element of an array: small where it is a number, as nearly all are.
+enum Element {
+    Number(f64),
+    Other(Box<Node>),
+}
+
+impl From<Node> for Element {
+    fn from(node: Node) -> Self {
+        match node {
+            Node::Number(number) => Self::Number(number),
+            other => Self::Other(Box::new(other)),
+        }
+    }
+}
+
+/// Reads one element.
+#[derive(Clone, Copy)]
+struct ElementSeed<'a>(Seed<'a>);
+
+impl<'de> DeserializeSeed<'de> for ElementSeed<'_> {
+    type Value = Element;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Element, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for ElementSeed<'_> {
+    type Value = Element;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.0.expecting(f)
+    }
+
+    fn visit_unit<E>(self) -> Result<Element, E> {
+        Ok(Node::Null.into())
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Element, E> {
+        Ok(Node::Bool(value).into())
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Element, E> {
+        Ok(Element::Number(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Element, E> {
+        Ok(Element::Number(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Element, E> {
+        Ok(Element::Number(value as f64))
+    }
+
+    fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Element, E> {
+        self.0.visit_str(value).map(Element::from)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<Element, A::Error> {
+        self.0.visit_seq(elements).map(Element::from)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<Element, A::Error> {
+        self.0.visit_map(entries).map(Element::from)
     }
 }
 

@@ -29,6 +29,13 @@ impl DirectionLanes {
         const NONE: AngleLanes = AngleLanes { degrees: ZERO, is_one: false };
         Self { count: 0, theta_i: NONE, theta_r: NONE, phi_r: NONE }
     }
+
+    /// Forgets the angles of other directions.
+    pub(in crate::reflectance) fn clear(&mut self) {
+        for angle in [&mut self.theta_i, &mut self.theta_r, &mut self.phi_r] {
+            angle.is_one = false;
+        }
+    }
 }
 
 /// Sine and cosine of one angle a direction.
