@@ -9,6 +9,7 @@ mod compression;
 mod diagrams;
 mod documents;
 mod examples;
+mod formats;
 mod limits;
 mod plan;
 mod properties;
