@@ -8,6 +8,7 @@ mod compression;
 mod diagrams;
 mod documents;
 mod examples;
+mod in_force;
 mod limits;
 mod plan;
 mod properties;
