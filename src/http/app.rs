@@ -2,6 +2,8 @@
 
 use super::compute::admission::Admission;
 use super::compute::pool::Pool;
+use super::edge;
+use super::transport::doors::Doors;
 use crate::config::Config;
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,6 +16,8 @@ struct Shared {
     limits: Limits,
     pool: Pool,
     admission: Admission,
+    edge: edge::State,
+    doors: Arc<Doors>,
 }
 
 /// What a request may be and take. Each has a flag, a place in `/v1/limits` and in the message of the error it causes.
@@ -69,6 +73,8 @@ impl App {
             limits,
             pool: Pool::new(config.capacity.pool_threads),
             admission: Admission::new(&limits),
+            edge: edge::State::new(config),
+            doors: Doors::new(limits.connections),
         }))
     }
 
@@ -80,7 +86,16 @@ impl App {
         &self.0.pool
     }
 
+    pub(super) fn edge(&self) -> &edge::State {
+        &self.0.edge
+    }
+
     pub(crate) fn admission(&self) -> &Admission {
         &self.0.admission
+    }
+
+    /// Whether the service is on its way out, and how many connections it has.
+    pub(crate) fn doors(&self) -> &Arc<Doors> {
+        &self.0.doors
     }
 }

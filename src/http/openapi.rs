@@ -1,6 +1,7 @@
 //! What the `OpenAPI` document says beyond its operations.
 
 use super::api::examples::{BODIES, LINKS};
+use super::edge;
 use super::problem::Document;
 use super::routes;
 use utoipa::openapi::example::ExampleBuilder;
@@ -66,6 +67,7 @@ pub(super) fn complete(mut document: OpenApi) -> OpenApi {
     let mut schemas = vec![(Document::name().into_owned(), Document::schema())];
     Document::schemas(&mut schemas);
     document.components.get_or_insert_default().schemas.extend(schemas);
+    edge::complete_document(&mut document);
     for example in BODIES {
         let operation = document.paths.paths.get_mut(example.path).and_then(|item| item.post.as_mut());
         let content =

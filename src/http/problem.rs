@@ -36,12 +36,13 @@ pub(crate) enum Kind {
     Internal,
     TooSlow,
     Overloaded,
+    Stopping,
     CpuTime,
 }
 
 impl Kind {
     /// Every kind, in the order of their declaration.
-    pub(crate) const ALL: [Self; 19] = [
+    pub(crate) const ALL: [Self; 20] = [
         Self::MalformedJson,
         Self::MalformedQuery,
         Self::MalformedColumns,
@@ -60,6 +61,7 @@ impl Kind {
         Self::Internal,
         Self::TooSlow,
         Self::Overloaded,
+        Self::Stopping,
         Self::CpuTime,
     ];
 
@@ -112,6 +114,7 @@ impl Kind {
             Self::Overloaded => {
                 ("overloaded", StatusCode::SERVICE_UNAVAILABLE, "The service has as much work as it takes on")
             }
+            Self::Stopping => ("stopping", StatusCode::SERVICE_UNAVAILABLE, "The service is about to stop"),
             Self::CpuTime => (
                 "cpu-time-exceeded",
                 StatusCode::UNPROCESSABLE_ENTITY,
@@ -248,6 +251,16 @@ impl Problem {
     pub(crate) fn unwritten(error: &dyn std::error::Error) -> Self {
         tracing::error!(%error, "an answer could not be written");
         Self::internal()
+    }
+
+    /// Whether the request was refused because there is too much work.
+    pub(crate) fn is_overload(&self) -> bool {
+        self.kind == Kind::Overloaded
+    }
+
+    /// Kind and detail, for the log.
+    pub(crate) fn summary(&self) -> String {
+        format!("{}: {}", self.kind.parts().0, self.detail)
     }
 
     /// The response for a request to `path`, with `headers` that were already set (`Allow`).

@@ -1,5 +1,6 @@
 //! The service from outside: the real binary over real HTTP.
 
+mod access;
 mod at_once;
 mod bad_input;
 mod caching;
@@ -16,4 +17,7 @@ mod protocol;
 mod radiance;
 mod readme;
 mod server;
+mod telemetry;
 mod tradeoff;
+mod transport;
+mod wire;

@@ -2,6 +2,7 @@
 
 use super::responses::{GetProblems, list};
 use crate::http::compute;
+use crate::http::edge::Deadline;
 use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
 use crate::http::encode::{flat, json};
@@ -10,7 +11,6 @@ use crate::http::input::query::{NoQuery, Query};
 use crate::http::link::{Known, linked};
 use crate::http::negotiate::{Format, JsonOnly, Tabular};
 use crate::http::problem::{Kind, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::figures::{FIGURES, Figure, find};
 use axum::extract::Path;
 use axum::extract::rejection::PathRejection;

@@ -11,7 +11,7 @@ pub(super) mod limits;
 pub(super) mod plan;
 pub(super) mod problems;
 pub(super) mod radiance;
-mod responses;
+pub(super) mod responses;
 pub(super) mod roughness;
 mod scene;
 mod spike;

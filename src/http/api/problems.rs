@@ -113,6 +113,9 @@ const fn about(kind: Kind) -> &'static str {
             "The service has as much work as it takes on. Nothing was done for this request: ask again after the \
              seconds that the header Retry-After names."
         }
+        Kind::Stopping => {
+            "The service was told to stop and finishes what is in flight. Ask again: a balancer sends the request elsewhere."
+        }
         Kind::CpuTime => {
             "The answer would take more processor time than a request may; the detail names the limit. Ask for \
              fewer directions at once, or for a cheaper method."

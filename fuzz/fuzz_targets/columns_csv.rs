@@ -1,0 +1,4 @@
+//! CSV tables of directions.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| reflectance_fuzz::targets::columns_csv(data));

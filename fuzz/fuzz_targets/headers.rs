@@ -1,0 +1,4 @@
+//! Header values.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| reflectance_fuzz::targets::headers(data));

@@ -1,0 +1,4 @@
+//! Packed bodies.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| reflectance_fuzz::targets::packed(data));

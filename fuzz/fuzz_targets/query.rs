@@ -1,0 +1,4 @@
+//! Query strings.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| reflectance_fuzz::targets::query(data));
