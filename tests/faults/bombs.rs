@@ -85,7 +85,10 @@ fn bombs_cost_no_more_than_the_limit() {
         );
     }
     let after = service.settled_memory();
-    println!("bombs: memory {idle:.1} MiB, peak {peak:.1}, afterwards {after:.1}; beside them {}", small.end());
+    println!(
+        "bombs: memory {idle:.1} MiB, peak {peak:.1}, afterwards {after:.1}; beside them {}",
+        small.end()
+    );
     // As many as may be at work at once by default, each with the limit in hand.
     assert!(peak - idle < 8.0 * 64.0 + 50.0, "{peak}");
     service.lives();

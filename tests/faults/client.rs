@@ -122,10 +122,7 @@ impl Connection {
                 Ok(0) => return true,
                 Ok(_) => self.ahead.clear(),
                 Err(error) => {
-                    return !matches!(
-                        error.kind(),
-                        io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut
-                    );
+                    return !matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut);
                 }
             }
         }

@@ -15,7 +15,11 @@ fn raise_descriptor_limit() {
     limit.current = limit.maximum;
     setrlimit(Resource::Nofile, limit).expect("up to the maximum it may");
     let enough = limit.maximum.is_none_or(|most| most > CROWD as u64 + 500);
-    assert!(enough, "this test wants {CROWD} descriptors and some, and the hard limit is {:?}", limit.maximum);
+    assert!(
+        enough,
+        "this test wants {CROWD} descriptors and some, and the hard limit is {:?}",
+        limit.maximum
+    );
 }
 
 #[test]

@@ -94,7 +94,10 @@ fn two_ways_to_tell_the_length_hide_no_second_request() {
     let mut service = Service::start(&[]);
     let hidden = "GET /v1/figures HTTP/1.1\r\nhost: localhost\r\n\r\n";
     // By the chunks the body is empty, and the rest would be a request of its own.
-    let request = format!("{HEAD}content-length: {}\r\ntransfer-encoding: chunked\r\n\r\n0\r\n\r\n{hidden}", 5 + hidden.len());
+    let request = format!(
+        "{HEAD}content-length: {}\r\ntransfer-encoding: chunked\r\n\r\n0\r\n\r\n{hidden}",
+        5 + hidden.len()
+    );
     let answers = answers(&service, request.as_bytes(), 1);
     assert_eq!(statuses(&answers), [400], "{answers:?}");
     service.lives();
@@ -105,7 +108,13 @@ fn chunks_that_are_none_are_refused() {
     let _alone = alone();
     let mut service = Service::start(&["--body-limit-bytes", "100000"]);
     let head = format!("{HEAD}transfer-encoding: chunked\r\n\r\n");
-    for chunks in ["zz\r\n{}\r\n0\r\n\r\n", "2\r\n{}x\r\n0\r\n\r\n", "ffffffffffffffffff\r\n{}", "-2\r\n{}\r\n0\r\n\r\n", "\r\n"] {
+    for chunks in [
+        "zz\r\n{}\r\n0\r\n\r\n",
+        "2\r\n{}x\r\n0\r\n\r\n",
+        "ffffffffffffffffff\r\n{}",
+        "-2\r\n{}\r\n0\r\n\r\n",
+        "\r\n",
+    ] {
         let answers = answers(&service, format!("{head}{chunks}").as_bytes(), 1);
         assert_eq!(statuses(&answers), [400], "{chunks:?}: {answers:?}");
     }

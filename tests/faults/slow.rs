@@ -77,7 +77,8 @@ fn a_client_that_does_not_read_is_let_go_and_costs_little_memory() {
     let idle = service.memory();
     let small = Small::begin(&service.address);
     let descriptors = service.descriptors();
-    let path = format!("/v1/diagrams?{QUERY}&sweep=theta_r_deg&from_deg=-80&to_deg=80&points=1000000&at_deg=0,30");
+    let path =
+        format!("/v1/diagrams?{QUERY}&sweep=theta_r_deg&from_deg=-80&to_deg=80&points=1000000&at_deg=0,30");
     let mut readers: Vec<_> = (0..4).map(|_| service.connect()).collect();
     for reader in &mut readers {
         reader.send(&get(&path, "accept: text/csv\r\n")).expect("it reads");

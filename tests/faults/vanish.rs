@@ -71,7 +71,9 @@ fn clients_that_leave_in_crowds_leave_nothing_behind() {
     until(Duration::from_secs(10), "all are let go", || service.descriptors() <= descriptors);
     let busy = taken_from_now(&service);
     let after = service.settled_memory();
-    println!("400 clients that left: memory {idle:.1} MiB, afterwards {after:.1}; busy for {busy:.1?} of 500 ms");
+    println!(
+        "400 clients that left: memory {idle:.1} MiB, afterwards {after:.1}; busy for {busy:.1?} of 500 ms"
+    );
     assert!(busy < Duration::from_millis(50), "{busy:?}");
     service.lives();
 }
