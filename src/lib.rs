@@ -25,4 +25,6 @@
 pub mod config;
 #[cfg(feature = "server")]
 pub mod http;
+#[cfg(feature = "server")]
+pub mod logs;
 pub mod reflectance;

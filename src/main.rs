@@ -2,9 +2,10 @@
 
 use clap::Parser as _;
 use clap::error::ErrorKind;
-use reflectance::config::{self, Cli, Command, Config, LogFormat};
+use reflectance::config::{self, Cli, Command, Config};
 use reflectance::http;
-use std::io::{IsTerminal as _, Write as _};
+use reflectance::logs::Logs;
+use std::io::Write as _;
 use std::process::ExitCode;
 use tokio::net::TcpListener;
 
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
 }
 
 fn serve(config: &Config) -> ExitCode {
+    let _logs = Logs::begin(&config.telemetry);
     let runtime = match tokio::runtime::Builder::new_multi_thread().enable_all().build() {
         Ok(runtime) => runtime,
         Err(error) => return fail(&format!("cannot start threads: {error}")),
@@ -37,14 +39,6 @@ fn serve(config: &Config) -> ExitCode {
 }
 
 async fn listen(config: &Config) -> ExitCode {
-    let logs = tracing_subscriber::fmt()
-        .with_max_level(config.telemetry.log_level)
-        .with_ansi(std::io::stderr().is_terminal())
-        .with_writer(std::io::stderr);
-    match config.telemetry.log_format {
-        LogFormat::Human => logs.with_target(false).init(),
-        LogFormat::Json => logs.json().flatten_event(true).with_target(false).init(),
-    }
     let listener = match TcpListener::bind(&config.listen).await {
         Ok(listener) => listener,
         Err(error) => {

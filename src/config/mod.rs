@@ -1,9 +1,11 @@
 //! Flags and environment, parsed once into a typed [`Config`].
 
 mod explain;
+mod keys;
 mod values;
 
 pub use explain::explain;
+pub use keys::{Key, KeysFile};
 
 use crate::reflectance::bounds::{MAX_DIRECTIONS, MAX_ROWS};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -62,8 +64,8 @@ pub struct Config {
 #[command(next_help_heading = "Access")]
 pub struct Access {
     /// File of bearer keys, one a line as `name key`; read again on SIGHUP. Without it anybody may ask
-    #[arg(long, env = "REFLECTANCE_API_KEYS_FILE", value_name = "FILE")]
-    pub api_keys_file: Option<PathBuf>,
+    #[arg(long, env = "REFLECTANCE_API_KEYS_FILE", value_name = "FILE", value_parser = KeysFile::open)]
+    pub api_keys_file: Option<KeysFile>,
     /// Requests a second that one client (key, or address where there are no keys) may make on average. Without it,
     /// any number
     #[arg(long, env = "REFLECTANCE_RATE_LIMIT_PER_SECOND", value_name = "REQUESTS", allow_negative_numbers = true, value_parser = nonzero)]
@@ -78,7 +80,7 @@ pub struct Access {
     )]
     pub rate_limit_burst: Option<NonZeroU32>,
     /// Origins whose pages may read answers (CORS), or `*`; given once each, or separated by commas
-    #[arg(long, env = "REFLECTANCE_CORS_ORIGIN", value_name = "ORIGIN", value_delimiter = ',')]
+    #[arg(long, env = "REFLECTANCE_CORS_ORIGIN", value_name = "ORIGIN", value_delimiter = ',', value_parser = values::origin)]
     pub cors_origin: Vec<String>,
     /// Certificate chain, PEM: serves HTTPS alone; read again on SIGHUP
     #[arg(long, env = "REFLECTANCE_TLS_CERT", value_name = "FILE", requires = "tls_key")]
@@ -178,7 +180,7 @@ pub struct Telemetry {
     #[arg(long, env = "REFLECTANCE_LOG_LEVEL", default_value = "info", value_name = "LEVEL")]
     pub log_level: tracing::level_filters::LevelFilter,
     /// Where spans go as OTLP over HTTP, as http://collector:4318; without it none are made
-    #[arg(long, env = "OTEL_EXPORTER_OTLP_ENDPOINT", value_name = "URL")]
+    #[arg(long, env = "OTEL_EXPORTER_OTLP_ENDPOINT", value_name = "URL", value_parser = values::collector)]
     pub otlp_endpoint: Option<String>,
 }
 
@@ -233,6 +235,15 @@ mod tests {
             ["--tls-cert", "alone.pem"],
             ["--log-format", "xml"],
             ["--log-level", "loud"],
+            ["--api-keys-file", "/nowhere/keys"],
+            ["--cors-origin", "example.org"],
+            ["--cors-origin", "https://example.org/"],
+            ["--cors-origin", "https://Example.org"],
+            ["--cors-origin", "https://a b"],
+            ["--cors-origin", "https://example.org,null"],
+            ["--otlp-endpoint", "https://collector:4318"],
+            ["--otlp-endpoint", "collector:4318"],
+            ["--otlp-endpoint", "http://"],
         ] {
             assert!(Cli::try_parse_from(["reflectance", wrong[0], wrong[1]]).is_err(), "{wrong:?}");
         }

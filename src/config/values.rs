@@ -45,3 +45,29 @@ fn between(text: &str, least: f64) -> Result<Duration, String> {
         .map(Duration::from_secs_f64)
         .ok_or_else(|| format!("expected a number from {least} to 86400"))
 }
+
+/// An origin as browsers send it, or `*` for any.
+pub(super) fn origin(text: &str) -> Result<String, String> {
+    let host = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://"));
+    let plain = |host: &str| {
+        !host.is_empty()
+            && host
+                .bytes()
+                .all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || b".-:[]".contains(&byte))
+            && host.parse::<axum::http::uri::Authority>().is_ok()
+    };
+    if text == "*" || host.is_some_and(plain) {
+        return Ok(text.to_owned());
+    }
+    Err("expected * or an origin in lower case without a path, like https://example.org or http://localhost:3000"
+        .to_owned())
+}
+
+/// Where a collector of spans listens.
+pub(super) fn collector(text: &str) -> Result<String, String> {
+    let expected = || "expected http://host:port, with a path before /v1/traces if there is one".to_owned();
+    let address = text.trim_end_matches('/');
+    let uri: axum::http::Uri = address.parse().map_err(|_| expected())?;
+    let plain = uri.scheme_str() == Some("http") && uri.host().is_some_and(|host| !host.is_empty());
+    if plain && uri.query().is_none() { Ok(address.to_owned()) } else { Err(expected()) }
+}

@@ -2,6 +2,7 @@
 
 use super::compute::admission::Admission;
 use super::compute::pool::Pool;
+use super::edge;
 use crate::config::Config;
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,6 +15,7 @@ struct Shared {
     limits: Limits,
     pool: Pool,
     admission: Admission,
+    edge: edge::State,
 }
 
 /// What a request may be and take. Each has a flag, a place in `/v1/limits` and in the message of the error it causes.
@@ -69,6 +71,7 @@ impl App {
             limits,
             pool: Pool::new(config.capacity.pool_threads),
             admission: Admission::new(&limits),
+            edge: edge::State::new(config),
         }))
     }
 
@@ -78,6 +81,10 @@ impl App {
 
     pub(crate) fn pool(&self) -> &Pool {
         &self.0.pool
+    }
+
+    pub(super) fn edge(&self) -> &edge::State {
+        &self.0.edge
     }
 
     pub(crate) fn admission(&self) -> &Admission {

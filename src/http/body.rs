@@ -2,9 +2,11 @@
 //! request in the query.
 
 use super::app::App;
+use super::coding::expand;
 use super::compute;
 use super::compute::admission::Turn;
 use super::decode;
+use super::edge::Deadline;
 use super::input::node;
 use super::input::object::WireObject;
 use super::input::query;
@@ -12,7 +14,6 @@ use super::input::reader::Reader;
 use super::input::wire::Wire;
 use super::negotiate::Format;
 use super::problem::{Code, FieldError, Kind, Problem};
-use super::track::Deadline;
 use axum::body::{Body, Bytes, HttpBody as _};
 use axum::extract::{FromRequest, FromRequestParts as _, Request};
 use axum::http::request::Parts;
@@ -111,9 +112,14 @@ struct Received {
 async fn receive(request: Request, app: &App) -> Result<Received, Problem> {
     let (mut parts, body) = request.into_parts();
     let Ok(deadline) = Deadline::from_request_parts(&mut parts, app).await;
+    let coding = expand::coding(&parts.headers)?;
     let mut incoming = Incoming { app, deadline, body, turn: None };
-    let bytes = incoming.bytes(&parts.headers).await?;
-    Ok(Received { parts, bytes, turn: incoming.turn, deadline })
+    let mut bytes = incoming.bytes(&parts.headers).await?;
+    let mut turn = incoming.turn;
+    if let Some(coding) = coding {
+        bytes = expand::body(app, deadline, &mut turn, coding, bytes).await?;
+    }
+    Ok(Received { parts, bytes, turn, deadline })
 }
 
 /// A body on its way.

@@ -4,9 +4,11 @@ mod answer;
 mod api;
 mod app;
 mod body;
+mod coding;
 mod compute;
 mod connection;
 mod decode;
+mod edge;
 mod encode;
 mod input;
 mod link;
@@ -15,7 +17,6 @@ mod openapi;
 mod problem;
 mod routes;
 mod serve;
-mod track;
 
 pub use openapi::openapi_json;
 pub use serve::{StopSignals, serve};
@@ -23,19 +24,17 @@ pub use serve::{StopSignals, serve};
 use crate::config::Config;
 use app::App;
 use axum::Router;
-use axum::middleware::from_fn_with_state;
+use edge::Edge;
 use std::net::SocketAddr;
-use tower_http::catch_panic::CatchPanicLayer;
 
 /// The whole service as one `tower` service.
 pub fn router(config: &Config) -> Router {
-    let app = App::new(config);
-    // As a service of its own: a layer on the routes themselves would not see the `Allow` that axum adds
-    // outside of them.
-    Router::new()
-        .fallback_service(routes::routes(app.clone()))
-        .layer(CatchPanicLayer::custom(track::on_panic))
-        .layer(from_fn_with_state(app, track::track))
+    Router::new().fallback_service(service(&App::new(config)))
+}
+
+/// The same, to be given the client of each connection.
+fn service(app: &App) -> Edge {
+    Edge::new(app.clone(), routes::routes(app.clone()))
 }
 
 /// What the program says when it is ready.

@@ -1,11 +1,13 @@
 //! What the `OpenAPI` document says beyond its operations.
 
 use super::api::examples::{BODIES, LINKS};
+use super::edge;
 use super::problem::Document;
 use super::routes;
 use utoipa::openapi::example::ExampleBuilder;
 use utoipa::openapi::info::{InfoBuilder, LicenseBuilder};
 use utoipa::openapi::path::ParameterBuilder;
+use utoipa::openapi::server::ServerBuilder;
 use utoipa::openapi::tag::TagBuilder;
 use utoipa::openapi::{OpenApi, OpenApiBuilder, RefOr};
 use utoipa::{PartialSchema as _, ToSchema as _};
@@ -19,7 +21,11 @@ their ratios matter. A value that is infinite or undefined is `null`, and `diagn
 the smallest 64-bit float is 0; its true size is in the `log10_…` arrays. Numbers in parentheses are the \
 equations of the report.
 
-Errors are `application/problem+json` (RFC 9457), all offending fields at once, each with a JSON Pointer.";
+Errors are `application/problem+json` (RFC 9457), all offending fields at once, each with a JSON Pointer; the \
+`type` leads to what each means, and `/v1/limits` says what is accepted.
+
+Answers to GET carry an entity tag that follows from what is asked for, in whatever words, and the version. Answers \
+and bodies may be in the content codings zstd, br and gzip.";
 
 /// Title, licence and tags.
 pub(super) fn information() -> OpenApi {
@@ -39,6 +45,13 @@ pub(super) fn information() -> OpenApi {
                 ))
                 .build(),
         )
+        .servers(Some([
+            ServerBuilder::new().url("/").description(Some("The version that is served.")).build(),
+            ServerBuilder::new()
+                .url(concat!("/", env!("CARGO_PKG_VERSION")))
+                .description(Some("This version or none: GET answers under it never change."))
+                .build(),
+        ]))
         .tags(Some([
             tag("reflection", "Radiance and BRDF of a surface in given directions."),
             tag("diagrams", "Tabulated diagrams and the report's figures."),
@@ -54,6 +67,7 @@ pub(super) fn complete(mut document: OpenApi) -> OpenApi {
     let mut schemas = vec![(Document::name().into_owned(), Document::schema())];
     Document::schemas(&mut schemas);
     document.components.get_or_insert_default().schemas.extend(schemas);
+    edge::complete_document(&mut document);
     for example in BODIES {
         let operation = document.paths.paths.get_mut(example.path).and_then(|item| item.post.as_mut());
         let content =

@@ -1,5 +1,6 @@
 //! Errors as clients see them: RFC 9457 problem documents.
 
+use super::coding::Coding;
 use super::input::node::excerpt;
 use axum::body::Body;
 use axum::http::{HeaderValue, StatusCode, header};
@@ -28,16 +29,42 @@ pub(crate) enum Kind {
     RequestTimeout,
     ContentTooLarge,
     UnsupportedMediaType,
+    UnsupportedCoding,
     InvalidRequest,
     Unauthorized,
     RateLimited,
     Internal,
     TooSlow,
     Overloaded,
+    Stopping,
     CpuTime,
 }
 
 impl Kind {
+    /// Every kind, in the order of their declaration.
+    pub(crate) const ALL: [Self; 20] = [
+        Self::MalformedJson,
+        Self::MalformedQuery,
+        Self::MalformedColumns,
+        Self::BadRequest,
+        Self::BodyUnreadable,
+        Self::NotFound,
+        Self::MethodNotAllowed,
+        Self::NotAcceptable,
+        Self::RequestTimeout,
+        Self::ContentTooLarge,
+        Self::UnsupportedMediaType,
+        Self::UnsupportedCoding,
+        Self::InvalidRequest,
+        Self::Unauthorized,
+        Self::RateLimited,
+        Self::Internal,
+        Self::TooSlow,
+        Self::Overloaded,
+        Self::Stopping,
+        Self::CpuTime,
+    ];
+
     /// The last segment of `type`, the status and the title.
     const fn parts(self) -> (&'static str, StatusCode, &'static str) {
         match self {
@@ -72,6 +99,11 @@ impl Kind {
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
                 "The body is of a media type that is not accepted",
             ),
+            Self::UnsupportedCoding => (
+                "unsupported-content-coding",
+                StatusCode::UNSUPPORTED_MEDIA_TYPE,
+                "The body is packed in a way that is not read",
+            ),
             Self::InvalidRequest => {
                 ("invalid-request", StatusCode::UNPROCESSABLE_ENTITY, "The request has invalid fields")
             }
@@ -82,6 +114,7 @@ impl Kind {
             Self::Overloaded => {
                 ("overloaded", StatusCode::SERVICE_UNAVAILABLE, "The service has as much work as it takes on")
             }
+            Self::Stopping => ("stopping", StatusCode::SERVICE_UNAVAILABLE, "The service is about to stop"),
             Self::CpuTime => (
                 "cpu-time-exceeded",
                 StatusCode::UNPROCESSABLE_ENTITY,
@@ -96,11 +129,29 @@ impl Kind {
         }
     }
 
+    /// The last segment of `type`.
+    pub(crate) const fn slug(self) -> &'static str {
+        self.parts().0
+    }
+
     /// The HTTP status.
     pub(crate) const fn status(self) -> StatusCode {
         self.parts().1
     }
+
+    /// The kind in words.
+    pub(crate) const fn title(self) -> &'static str {
+        self.parts().2
+    }
+
+    /// The value of `type`: a link to what the kind means.
+    pub(crate) fn reference(self) -> String {
+        format!("/problems/{}", self.slug())
+    }
 }
+
+// The last kind is the last of all: none is left out.
+const _: () = assert!(Kind::ALL.len() == Kind::CpuTime as usize + 1);
 
 /// What is wrong with a field. The names are stable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
@@ -202,12 +253,22 @@ impl Problem {
         Self::internal()
     }
 
+    /// Whether the request was refused because there is too much work.
+    pub(crate) fn is_overload(&self) -> bool {
+        self.kind == Kind::Overloaded
+    }
+
+    /// Kind and detail, for the log.
+    pub(crate) fn summary(&self) -> String {
+        format!("{}: {}", self.kind.parts().0, self.detail)
+    }
+
     /// The response for a request to `path`, with `headers` that were already set (`Allow`).
     pub(crate) fn render(&self, path: &str) -> Response {
-        let (slug, status, title) = self.kind.parts();
+        let status = self.kind.status();
         let document = Document {
-            kind: format!("/problems/{slug}"),
-            title,
+            kind: self.kind.reference(),
+            title: self.kind.title(),
             status: status.as_u16(),
             detail: &self.detail,
             instance: path,
@@ -217,7 +278,12 @@ impl Problem {
         let body = serde_json::to_vec(&document).unwrap_or_default();
         let mut response = Response::new(Body::from(body));
         *response.status_mut() = status;
-        response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
+        let headers = response.headers_mut();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+        if self.kind == Kind::UnsupportedCoding {
+            headers.insert(header::ACCEPT_ENCODING, HeaderValue::from_static(Coding::LIST));
+        }
         if status == StatusCode::SERVICE_UNAVAILABLE {
             response.headers_mut().insert(header::RETRY_AFTER, RETRY_AFTER);
         }

@@ -2,11 +2,12 @@
 
 use super::App;
 use super::api::{
-    diagrams, documents, figures, health, image_irradiance, plan, radiance, roughness, tradeoff,
+    diagrams, documents, figures, health, image_irradiance, limits, plan, problems, radiance, roughness,
+    tradeoff,
 };
+use super::edge::not_found;
 use super::openapi;
 use super::problem::Problem;
-use super::track::not_found;
 use axum::Router;
 use utoipa::openapi::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
@@ -24,14 +25,24 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(figures::index))
         .routes(routes!(figures::figure))
         .routes(routes!(roughness::roughness))
+        .routes(routes!(limits::limits))
+        .routes(routes!(problems::index))
+        .routes(routes!(problems::problem))
         .routes(routes!(health::livez))
         .routes(routes!(health::readyz))
+        .routes(routes!(health::metrics))
         .routes(routes!(documents::openapi))
 }
 
 /// The document alone.
 pub(super) fn document() -> OpenApi {
     openapi::complete(documented().into_openapi())
+}
+
+/// The patterns of all paths, those of the reference among them.
+pub(super) fn patterns() -> Vec<String> {
+    let documented = documented().into_openapi().paths.paths.into_keys();
+    documented.chain(["/", "/docs", "/docs/{*rest}"].map(str::to_owned)).collect()
 }
 
 /// The service's routes.

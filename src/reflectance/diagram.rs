@@ -8,10 +8,11 @@ use super::quantity::{
 };
 use super::scene::Scene;
 use super::table::{Column, Curve, Table};
+use core::hash::{Hash, Hasher};
 use core::ops::Range;
 
 /// Which zenith angle runs; the other is fixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SweepAxis {
     /// θ_r for a fixed source, as in figures 11 to 21.
     ThetaR,
@@ -46,7 +47,7 @@ impl SweepAxis {
 }
 
 /// How the sweep is divided.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Division {
     /// From the start in steps of this many degrees, while the end is not passed.
     Step(SweepStep),
@@ -87,6 +88,9 @@ pub enum DiagramError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     axis: SweepAxis,
+    /// What the positions follow from.
+    ends: (SweepAngle, SweepAngle),
+    division: Division,
     positions: Vec<f64>,
     at: Vec<f64>,
     phi_r: Azimuth,
@@ -150,6 +154,16 @@ impl SweepParts {
     }
 }
 
+/// By what it was made of, which is less than its positions.
+impl Hash for Sweep {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.axis, self.ends, self.division, self.phi_r).hash(state);
+        for at in &self.at {
+            state.write_u64(at.to_bits());
+        }
+    }
+}
+
 impl Sweep {
     /// Checks the parts against each other; all that is wrong comes back at once.
     pub fn new(
@@ -184,9 +198,10 @@ impl Sweep {
         at: Vec<f64>,
         phi_r: Azimuth,
     ) -> Self {
+        let ends = (from, to);
         let (from, to) = (from.get(), to.get());
         let points = division.points(from, to);
-        Self { axis, positions: division.positions(from, to, points), at, phi_r }
+        Self { axis, ends, division, positions: division.positions(from, to, points), at, phi_r }
     }
 
     /// Rows of the table: points times fixed angles.

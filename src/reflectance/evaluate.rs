@@ -20,7 +20,7 @@ pub use super::kernel::{EvaluatedBy, Quantity};
 pub use super::stretch::{Parts, Stretch, Tally};
 
 /// What to add to the answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Output {
     /// Decimal logarithms of total and components, right also where the value underflows.
     pub log10: bool,

@@ -1,7 +1,7 @@
 //! The models and the reflection components they are made of (section 5.1).
 
 /// Which of the report's models.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Model {
     /// Specular lobe + specular spike, (47).
     BeckmannSpizzichino,
@@ -41,7 +41,7 @@ impl Model {
 }
 
 /// A primary reflection component, section 5.1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Component {
     /// (57)
     DiffuseLobe,

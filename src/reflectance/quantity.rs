@@ -3,6 +3,7 @@
 
 use super::bounds::{self, Bounds};
 use core::fmt;
+use core::hash::{Hash, Hasher};
 
 /// A number outside its bounds (NaN and infinities included).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,13 @@ macro_rules! quantities {
         #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
         #[repr(transparent)]
         pub struct $name(f64);
+
+        /// By the bits: -0 and 0, which are equal, may be answered with their own sign.
+        impl Hash for $name {
+            fn hash<H: Hasher>(&self, state: &mut H) {
+                state.write_u64(self.0.to_bits());
+            }
+        }
 
         impl Quantity for $name {
             const BOUNDS: &'static Bounds = &bounds::$bounds;

@@ -14,11 +14,12 @@ use super::radiometry::Camera;
 use super::roughness;
 use super::shadowing::Shadowing;
 use super::torrance_sparrow;
+use core::hash::{Hash, Hasher};
 
 pub use super::model::{Component, Model};
 
 /// What the surface is made of and how rough it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Surface {
     /// σ_h of the height density (4).
     pub rms_height: Option<RmsHeight>,
@@ -37,7 +38,7 @@ pub struct Surface {
 }
 
 /// The light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Illumination {
     /// λ; needed by the height models only.
     pub wavelength: Option<Wavelength>,
@@ -48,7 +49,7 @@ pub struct Illumination {
 }
 
 /// What the sensor sees of the surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Sensor {
     /// The quantities of (47) and (35) themselves.
     Patch {
@@ -64,7 +65,7 @@ pub enum Sensor {
 }
 
 /// The camera of figure 10.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct CameraSensor {
     /// dA_im
     pub pixel_area: Area,
@@ -100,8 +101,19 @@ pub enum Components {
     Named(Vec<Component>),
 }
 
+/// By the components, in whatever order they are named: they are answered in the model's.
+impl Hash for Components {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Self::Auto => None,
+            Self::Named(named) => Some(Component::ALL.map(|component| named.contains(&component))),
+        }
+        .hash(state);
+    }
+}
+
 /// Tolerance and method.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Accuracy {
     /// Relative, of the total, per direction.
     pub relative_tolerance: Tolerance,
@@ -110,7 +122,7 @@ pub struct Accuracy {
 }
 
 /// Everything about a scene but the directions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Hash)]
 pub struct SceneParameters {
     /// The model.
     pub model: Model,
@@ -134,6 +146,13 @@ pub struct Scene {
     pub(super) evaluated: Vec<Component>,
     /// Where the model has facets.
     pub(super) facets: Option<FacetParameters>,
+}
+
+/// By its parameters, from which all else follows.
+impl Hash for Scene {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.parameters.hash(state);
+    }
 }
 
 /// What the facet lobe (70) is made of.

@@ -7,7 +7,7 @@ use super::geometry::Geometry;
 use core::f64::consts::PI;
 
 /// How facets hide each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shadowing {
     /// Not at all: G = 1.
     None,

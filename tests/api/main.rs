@@ -1,8 +1,11 @@
 //! The service from outside: the real binary over real HTTP.
 
+mod access;
 mod at_once;
 mod bad_input;
+mod caching;
 mod command_line;
+mod compression;
 mod diagrams;
 mod documents;
 mod examples;
@@ -13,4 +16,5 @@ mod protocol;
 mod radiance;
 mod readme;
 mod server;
+mod telemetry;
 mod tradeoff;

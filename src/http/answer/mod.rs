@@ -15,9 +15,11 @@ pub(crate) use work::{Over, Subject, Work};
 
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;
-use crate::http::negotiate::{Format, VARY};
+use crate::http::edge::{Asked, Deadline};
+use crate::http::negotiate::{Format, Tabular, VARY};
 use crate::http::problem::Problem;
-use crate::http::track::Deadline;
+use axum::extract::FromRequestParts;
+use axum::http::request::Parts;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse as _, Response};
 use std::sync::Arc;
@@ -25,15 +27,29 @@ use std::sync::Arc;
 /// Nanoseconds of work that is done at once: a tenth of what a client notices, and ten changes of threads.
 const SMALL: f64 = 3e5;
 
-/// Answers.
-pub(crate) async fn respond(
-    app: &App,
+/// What an answer needs of its request besides what is asked for.
+pub(crate) struct Call {
+    app: App,
+    pub(crate) format: Format,
     deadline: Deadline,
-    turn: Option<Turn>,
-    work: Work,
-    format: Format,
-) -> Result<Response, Problem> {
+}
+
+impl FromRequestParts<App> for Call {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Problem> {
+        let Tabular(format) = Tabular::from_request_parts(parts, app).await?;
+        let Ok(deadline) = Deadline::from_request_parts(parts, app).await;
+        Ok(Self { app: app.clone(), format, deadline })
+    }
+}
+
+/// Answers; `turn` if the request has had to wait for one already.
+pub(crate) async fn respond(call: Call, turn: Option<Turn>, mut work: Work) -> Result<Response, Problem> {
+    let Call { app, format, deadline } = call;
     work.check(app.limits()).map_err(Problem::invalid)?;
+    work.meter = app.edge().meter();
+    let asked = Asked(work.rows());
     let nanoseconds = work.nanoseconds_a_row() * work.rows() as f64;
     let content_type = format.content_type();
     let mut response = if nanoseconds <= SMALL {
@@ -45,7 +61,7 @@ pub(crate) async fn respond(
     } else {
         // The estimate is good to a factor of two.
         if nanoseconds > 2e9 * app.limits().cpu_time.as_secs_f64() {
-            return Err(output::cpu_time(app));
+            return Err(output::cpu_time(&app));
         }
         let turn = match turn {
             Some(turn) => turn,
@@ -54,15 +70,16 @@ pub(crate) async fn respond(
         let work = Arc::new(work);
         match format.row_format() {
             None => {
-                output::begin(app, deadline, turn, content_type, move |output| json::stream(work, output))
+                output::begin(&app, deadline, turn, content_type, move |output| json::stream(work, output))
                     .await
             }
             Some(rows) => {
                 let make = move |output| table::stream(work, rows, output);
-                output::begin(app, deadline, turn, content_type, make).await
+                output::begin(&app, deadline, turn, content_type, make).await
             }
         }?
     };
     response.headers_mut().insert(header::VARY, HeaderValue::from_static(VARY));
+    response.extensions_mut().insert(asked);
     Ok(response)
 }

@@ -4,8 +4,8 @@ use super::output::begin;
 use super::{Over, Subject, Work, json, table};
 use crate::config::Cli;
 use crate::http::app::App;
+use crate::http::edge::Deadline;
 use crate::http::encode::rows::RowFormat;
-use crate::http::track::Deadline;
 use crate::reflectance::diagram::{Division, SweepAxis, SweepParts};
 use crate::reflectance::directions::{Angles, Directions};
 use crate::reflectance::evaluate::{Output, Quantity};
@@ -81,7 +81,7 @@ fn parts_add_up_to_the_answer_made_at_once() {
     let app = App::new(&Cli::parse_from(["reflectance"]).config);
     for subject in subjects() {
         for over in overs() {
-            let work = Work { subject: subject.clone(), over };
+            let work = Work::new(subject.clone(), over);
             assert!(work.pieces().count() > 1);
             let at_once = json::whole(&work).unwrap();
             assert!(serde_json::from_slice::<serde_json::Value>(&at_once).is_ok());

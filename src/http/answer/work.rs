@@ -2,6 +2,7 @@
 
 use super::columns::Stretch;
 use crate::http::app::Limits;
+use crate::http::edge::Meter;
 use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
@@ -27,8 +28,10 @@ const MOST_ROWS: usize = 16 << 10;
 /// What is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Work {
-    pub(crate) subject: Subject,
-    pub(crate) over: Over,
+    pub(super) subject: Subject,
+    pub(super) over: Over,
+    /// Counts what is evaluated.
+    pub(super) meter: Meter,
 }
 
 /// Of what.
@@ -61,6 +64,10 @@ pub(super) enum Model {
 }
 
 impl Work {
+    pub(crate) fn new(subject: Subject, over: Over) -> Self {
+        Self { subject, over, meter: Meter::default() }
+    }
+
     pub(super) fn rows(&self) -> usize {
         match &self.over {
             Over::Directions(directions) => directions.count(),
@@ -153,7 +160,7 @@ impl Work {
                 (&part, 0..range.len())
             }
         };
-        Ok(match &curve.model {
+        let stretch: Stretch = match &curve.model {
             Model::Scene(prepared) => {
                 prepared.stretch(directions, range, is_over).into_parts_after(before).into()
             }
@@ -162,7 +169,9 @@ impl Work {
                 evaluation.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.index += before);
                 evaluation.into()
             }
-        })
+        };
+        self.meter.add(&stretch.tally);
+        Ok(stretch)
     }
 
     /// The three angles of a range of a curve's points: θ_i, θ_r and φ_r, or the fixed and the swept angle and φ_r.

@@ -4,8 +4,7 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
-use crate::http::answer::{self, Over, Subject, Work};
-use crate::http::app::App;
+use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonBody;
 use crate::http::compute::admission::Turn;
 use crate::http::encode::rows::Binary;
@@ -13,13 +12,11 @@ use crate::http::encode::table::Diagram;
 use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
-use crate::http::link::{Known, linked};
-use crate::http::negotiate::{Format, Tabular};
+use crate::http::link::{Known, key, linked};
 use crate::http::problem::Problem;
-use crate::http::track::Deadline;
 use crate::reflectance::evaluate::Quantity;
-use axum::extract::State;
 use axum::response::Response;
+use std::hash::{Hash, Hasher};
 
 named! {
     Quantity, "a quantity", [Quantity::Radiance, Quantity::Brdf];
@@ -34,6 +31,14 @@ object! {
         output: Option<OutputWire>,
         ..sweep: CheckedSweep,
         ..scene: CheckedScene,
+    }
+}
+
+/// By what it asks for: the same where a default is given and where it is left out.
+impl Hash for DiagramRequest {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let quantity = self.quantity.unwrap_or(Quantity::Radiance).name();
+        (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene.0).hash(state);
     }
 }
 
@@ -58,14 +63,12 @@ object! {
     )
 )]
 pub(crate) async fn link(
-    State(app): State<App>,
-    Tabular(format): Tabular,
+    call: Call,
     known: Known,
-    deadline: Deadline,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let key = format!("{request:?}{format:?}");
-    linked(&known, &key, draw(&app, format, deadline, None, request)).await
+    let key = key(&("/v1/diagrams", call.format.media_type(), &request));
+    linked(&known, &key, draw(call, None, request)).await
 }
 
 /// A tabulated diagram.
@@ -85,27 +88,19 @@ pub(crate) async fn link(
     )
 )]
 pub(crate) async fn diagram(
-    State(app): State<App>,
-    Tabular(format): Tabular,
-    deadline: Deadline,
+    call: Call,
     JsonBody { value: request, turn }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    draw(&app, format, deadline, turn, request).await
+    draw(call, turn, request).await
 }
 
-async fn draw(
-    app: &App,
-    format: Format,
-    deadline: Deadline,
-    turn: Option<Turn>,
-    request: DiagramRequest,
-) -> Result<Response, Problem> {
+async fn draw(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
     let subject = Subject::Scene {
         scene: Box::new(scene),
         quantity: quantity.unwrap_or(Quantity::Radiance),
         output: OutputWire::chosen(output),
     };
-    let work = Work { subject, over: Over::Sweep(Box::new(sweep)) };
-    answer::respond(app, deadline, turn, work, format).await
+    let work = Work::new(subject, Over::Sweep(Box::new(sweep)));
+    answer::respond(call, turn, work).await
 }

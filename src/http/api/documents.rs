@@ -1,10 +1,11 @@
 //! What the service says about itself: the `OpenAPI` document and the interactive reference.
 
 use crate::http::app::App;
+use crate::http::link::{Known, document};
+use crate::http::negotiate::Format;
 use crate::http::openapi::openapi_json;
 use axum::Router;
-use axum::http::header;
-use axum::response::{IntoResponse, Redirect, Response};
+use axum::response::{Redirect, Response};
 use axum::routing::get;
 use std::sync::LazyLock;
 use utoipa_swagger_ui::{Config, SwaggerUi};
@@ -16,10 +17,13 @@ static DOCUMENT: LazyLock<String> = LazyLock::new(openapi_json);
     get,
     path = "/openapi.json",
     tag = "reference",
-    responses((status = 200, description = "The document.", body = serde_json::Value, content_type = "application/json"))
+    responses(
+        (status = 200, description = "The document.", body = serde_json::Value, content_type = "application/json"),
+        (status = 304, description = "The client has this document already.")
+    )
 )]
-pub(crate) async fn openapi() -> Response {
-    ([(header::CONTENT_TYPE, "application/json")], DOCUMENT.as_str()).into_response()
+pub(crate) async fn openapi(known: Known) -> Response {
+    document(&known, Format::Json.content_type(), DOCUMENT.as_str()).await
 }
 
 /// The reference at `/docs`, where `/` leads; its pages and scripts are part of the program.

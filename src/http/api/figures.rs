@@ -2,19 +2,20 @@
 
 use super::responses::{GetProblems, list};
 use crate::http::compute;
+use crate::http::edge::Deadline;
 use crate::http::encode::rows::Binary;
 use crate::http::encode::table::Diagram;
 use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::{NoQuery, Query};
-use crate::http::link::{Known, tagged};
+use crate::http::link::{Known, linked};
 use crate::http::negotiate::{Format, JsonOnly, Tabular};
 use crate::http::problem::{Kind, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::figures::{FIGURES, Figure, find};
 use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
-use axum::response::Response;
+use axum::http::header;
+use axum::response::{IntoResponse as _, Response};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use utoipa::openapi::{RefOr, Response as Documented};
@@ -94,14 +95,16 @@ impl IntoResponses for NoFigure {
     )
 )]
 pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Response, Problem> {
-    let figures = FIGURES.iter().map(|figure| FigureSummary {
-        id: figure.id,
-        title: figure.title,
-        parameters: figure.parameters,
-        href: format!("/v1/figures/{}", figure.id),
-    });
-    let body = json::bytes(&FigureList { figures: figures.collect() }, 16 << 10)?;
-    Ok(tagged(&known, Format::Json.content_type(), body))
+    linked(&known, &"/v1/figures", async {
+        let figures = FIGURES.iter().map(|figure| FigureSummary {
+            id: figure.id,
+            title: figure.title,
+            parameters: figure.parameters,
+            href: format!("/v1/figures/{}", figure.id),
+        });
+        json::response(&FigureList { figures: figures.collect() }, 16 << 10)
+    })
+    .await
 }
 
 /// One figure of the report, computed from its caption's parameters.
@@ -132,9 +135,12 @@ pub(crate) async fn figure(
     // An id that is not UTF-8 is the id of no figure.
     let figure = id.ok().and_then(|Path(id)| find(&id)).ok_or_else(no_figure)?;
     let log10 = query.log10.unwrap_or(false);
-    // Every figure has hundreds of directions at least: none is worth holding up connections for.
-    let body = compute::blocking(deadline, move || draw(figure, format, log10)).await??;
-    Ok(tagged(&known, format.content_type(), body))
+    linked(&known, &("/v1/figures", figure.id, format.media_type(), log10), async {
+        // Every figure has hundreds of directions at least: none is worth holding up connections for.
+        let body = compute::blocking(deadline, move || draw(figure, format, log10)).await??;
+        Ok(([(header::CONTENT_TYPE, format.content_type())], body).into_response())
+    })
+    .await
 }
 
 fn no_figure() -> Problem {

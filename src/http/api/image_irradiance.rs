@@ -5,23 +5,19 @@ use super::answer::{Answer, DiagnosticAnswer};
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
 use super::scene::describes_patch;
-use crate::http::answer::{self, Over, Subject, Work};
-use crate::http::app::App;
+use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonBody;
 use crate::http::encode::numbers::Numbers;
 use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{Named, Schemas, Wire, mismatch, named, read_named};
-use crate::http::negotiate::Tabular;
 use crate::http::problem::{Code, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::directions::Directions;
 use crate::reflectance::evaluate::Quantity;
 use crate::reflectance::linear_image::{LinearKind, LinearScene, SpikeShape};
 use crate::reflectance::quantity::{FacetSlope, Strength};
 use crate::reflectance::scene::{Model, Sensor};
-use axum::extract::State;
 use axum::response::Response;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -190,7 +186,7 @@ fn without_model(object: Object, reader: &mut Reader) {
         }
     }
     fields.forget(&accepted);
-    fields.finish(reader, &accepted);
+    fields.finish(reader, || accepted);
 }
 
 /// Reads a radiance request whose sensor has to be a camera.
@@ -297,9 +293,7 @@ pub(crate) enum ImageAnswer {
     )
 )]
 pub(crate) async fn image_irradiance(
-    State(app): State<App>,
-    Tabular(format): Tabular,
-    deadline: Deadline,
+    call: Call,
     JsonBody { value: request, turn }: JsonBody<ImageRequest>,
 ) -> Result<Response, Problem> {
     let work = match request {
@@ -310,12 +304,12 @@ pub(crate) async fn image_irradiance(
                 quantity: Quantity::ImageIrradiance { factor },
                 output: OutputWire::chosen(output),
             };
-            Work { subject, over: Over::Directions(Box::new(geometry.0)) }
+            Work::new(subject, Over::Directions(Box::new(geometry.0)))
         }
         ImageRequest::Linear { scene, directions, log10 } => {
             let subject = Subject::Linear { scene: Arc::new(scene), log10 };
-            Work { subject, over: Over::Directions(Box::new(directions)) }
+            Work::new(subject, Over::Directions(Box::new(directions)))
         }
     };
-    answer::respond(&app, deadline, turn, work, format).await
+    answer::respond(call, turn, work).await
 }

@@ -3,8 +3,7 @@
 use super::answer::Answer;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
-use crate::http::answer::{self, Over, Subject, Work};
-use crate::http::app::App;
+use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonOrColumns;
 use crate::http::compute::admission::Turn;
 use crate::http::decode::OBJECT;
@@ -14,13 +13,10 @@ use crate::http::input::object::{WireObject, documented_parameters, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::AnglesWire;
 use crate::http::input::wire::{Parameter, Schemas, Wire};
-use crate::http::negotiate::{Format, Tabular};
 use crate::http::problem::{Code, Problem};
-use crate::http::track::Deadline;
 use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
 use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SourceZenith, ViewerZenith};
-use axum::extract::State;
 use axum::response::Response;
 use utoipa::IntoParams;
 use utoipa::openapi::RefOr;
@@ -185,12 +181,10 @@ impl IntoParams for BesideColumns {
     )
 )]
 pub(crate) async fn radiance(
-    State(app): State<App>,
-    Tabular(format): Tabular,
-    deadline: Deadline,
+    call: Call,
     JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(&app, Quantity::Radiance, format, deadline, turn, request).await
+    answer(call, Quantity::Radiance, turn, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
@@ -221,25 +215,21 @@ pub(crate) async fn radiance(
     )
 )]
 pub(crate) async fn brdf(
-    State(app): State<App>,
-    Tabular(format): Tabular,
-    deadline: Deadline,
+    call: Call,
     JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(&app, Quantity::Brdf, format, deadline, turn, request).await
+    answer(call, Quantity::Brdf, turn, request).await
 }
 
 async fn answer(
-    app: &App,
+    call: Call,
     quantity: Quantity,
-    format: Format,
-    deadline: Deadline,
     turn: Option<Turn>,
     request: RadianceRequest,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
     let subject = Subject::Scene { scene: Box::new(scene), quantity, output: OutputWire::chosen(output) };
-    let work = Work { subject, over: Over::Directions(Box::new(directions)) };
-    answer::respond(app, deadline, turn, work, format).await
+    let work = Work::new(subject, Over::Directions(Box::new(directions)));
+    answer::respond(call, turn, work).await
 }

@@ -1,6 +1,7 @@
 //! The errors that operations have in common, for the document.
 
 use crate::http::problem::{Document, Kind, PROBLEM_JSON};
+use axum::http::StatusCode;
 use std::collections::BTreeMap;
 use utoipa::openapi::header::HeaderBuilder;
 use utoipa::openapi::schema::{ObjectBuilder, Type};
@@ -48,7 +49,14 @@ pub(crate) fn list(problems: &[(Kind, &str)]) -> BTreeMap<String, RefOr<Response
             let schema = Ref::from_schema_name(Document::name());
             let content = ContentBuilder::new().schema(Some(schema)).build();
             let mut response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content);
-            if kind == Kind::TooSlow {
+            if kind == Kind::Unauthorized {
+                let challenge = HeaderBuilder::new()
+                    .schema(Some(ObjectBuilder::new().schema_type(Type::String)))
+                    .description(Some("How to show a key."))
+                    .build();
+                response = response.header("WWW-Authenticate", challenge);
+            }
+            if matches!(kind.status(), StatusCode::TOO_MANY_REQUESTS | StatusCode::SERVICE_UNAVAILABLE) {
                 let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0));
                 let header = HeaderBuilder::new()
                     .schema(Some(seconds))

@@ -6,6 +6,7 @@ use crate::http::input::object::{WireObject, object};
 use crate::http::input::query::Query;
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{Parameter, Schemas, is_given};
+use crate::http::link::{Known, linked};
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
 use crate::reflectance::degrees::SinCos;
@@ -19,6 +20,7 @@ use crate::reflectance::surface::{
 use crate::reflectance::unified::{lobe_share, mirror_g, spike_share};
 use axum::response::Response;
 use serde::Serialize;
+use std::hash::{Hash, Hasher};
 use utoipa::ToSchema;
 use utoipa::openapi::schema::ObjectBuilder;
 
@@ -41,7 +43,7 @@ object! {
 const MEASURES: &str = "rms_height_um with correlation_length_um, or facet_slope_deg, or beckmann_alpha";
 
 /// One measure of the three.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Hash)]
 pub(crate) enum Measure {
     Heights(RmsHeight, CorrelationLength),
     FacetSlope(InvertibleFacetSlope),
@@ -116,6 +118,14 @@ object! {
         /// θ_i, degrees; 0 when absent.
         theta_i_deg: Option<SourceZenith>,
         ..measure: Measure,
+    }
+}
+
+/// By what it asks for: the same where a default is given and where it is left out.
+impl Hash for RoughnessQuery {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let theta_i = self.theta_i_deg.map_or(0.0, SourceZenith::get);
+        (self.wavelength_um, theta_i.to_bits(), self.measure).hash(state);
     }
 }
 
@@ -208,10 +218,18 @@ const GEOMETRICAL: &str = "σ_h over the wavelength; holds from 1.5 on, where th
     path = "/v1/roughness",
     tag = "roughness",
     params(RoughnessQuery),
-    responses((status = 200, description = "The roughness in every measure.", body = Roughness), GetProblems)
+    responses(
+        (status = 200, description = "The roughness in every measure.", body = Roughness),
+        (status = 304, description = "The client has this answer already."),
+        GetProblems
+    )
 )]
-pub(crate) async fn roughness(_: JsonOnly, Query(query): Query<RoughnessQuery>) -> Result<Response, Problem> {
-    json::response(&answer(&query), 1024)
+pub(crate) async fn roughness(
+    _: JsonOnly,
+    known: Known,
+    Query(query): Query<RoughnessQuery>,
+) -> Result<Response, Problem> {
+    linked(&known, &("/v1/roughness", &query), async { json::response(&answer(&query), 1024) }).await
 }
 
 fn answer(query: &RoughnessQuery) -> Roughness {

@@ -4,8 +4,8 @@ pub(crate) mod admission;
 pub(crate) mod job;
 pub(crate) mod pool;
 
+use super::edge::Deadline;
 use super::problem::{Kind, Problem};
-use super::track::Deadline;
 use tokio::sync::{Semaphore, SemaphorePermit};
 
 /// Directions that are evaluated without a change of thread, which costs as much as dozens of them.

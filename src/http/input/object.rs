@@ -43,7 +43,7 @@ pub(crate) trait WireObject: Sized {
         };
         let mut fields = Fields::new(object);
         let value = Self::take(&mut fields, reader);
-        fields.finish(reader, &Self::names());
+        fields.finish(reader, Self::names);
         value
     }
 
@@ -240,7 +240,9 @@ macro_rules! object {
             }
 
             fn is_given(_: &'static str, fields: &$crate::http::input::reader::Fields) -> bool {
-                fields.has_any(&<Self as $crate::http::input::object::WireObject>::flat_names())
+                // Each query asks for them, and what makes them makes their schemas too.
+                static NAMES: std::sync::OnceLock<Vec<&'static str>> = std::sync::OnceLock::new();
+                fields.has_any(NAMES.get_or_init(<Self as $crate::http::input::object::WireObject>::flat_names))
             }
 
             fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::Schema> {

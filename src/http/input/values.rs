@@ -8,7 +8,7 @@ use super::wire::{
 };
 use crate::http::decode::OBJECT;
 use crate::http::problem::Code;
-use crate::reflectance::bounds::MAX_DIRECTIONS;
+use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
 use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::numeric::lobe_series::Method;
@@ -35,6 +35,7 @@ pub(crate) struct AnglesWire<Q> {
 }
 
 impl<Q: Quantity> Wire for AnglesWire<Q> {
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
             Node::Array(_) => {
@@ -81,7 +82,7 @@ impl<Q: Quantity> Wire for AnglesWire<Q> {
 
     fn parameters(name: &'static str, description: &str, _: bool) -> Vec<Parameter> {
         let description = format!("{description} Unless the body has a column of this name.");
-        vec![Parameter { name, description, required: false, schema: Q::schema() }]
+        vec![Parameter { name, description, required: false, schema: Q::schema(), bounds: Some(Q::BOUNDS) }]
     }
 }
 
@@ -97,6 +98,7 @@ pub(crate) struct List<Q, const MOST: usize>(pub(crate) Vec<Option<Q>>);
 
 impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
     const REPEATABLE: bool = true;
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let node = if reader.is_flat() { split(node) } else { node };
@@ -219,7 +221,7 @@ impl Wire for Medium {
                     let detail = format!("no materials are offered yet: expected {expected}");
                     reader.within("material", |reader| reader.error(Code::NotOffered, detail));
                 }
-                fields.finish(reader, &IndexWire::names());
+                fields.finish(reader, IndexWire::names);
                 None
             }
             Node::Object(_) => IndexWire::read_object(node, reader).and_then(|wire| index(&wire)),
@@ -253,7 +255,7 @@ impl Wire for Medium {
     fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
         let schema = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA)).into();
         let description = format!("{description} Or n and k.");
-        let mut parameters = vec![Parameter { name, description, required, schema }];
+        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(IndexWire::query_parameters(false));
         parameters
     }
@@ -360,7 +362,7 @@ impl Wire for Polarization {
         let schema = named_schema::<NamedPolarization>();
         let description =
             format!("{description} Or `parallel` and `perpendicular`, two shares that add up to 1.");
-        let mut parameters = vec![Parameter { name, description, required, schema }];
+        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(MixWire::query_parameters(false));
         parameters
     }

@@ -3,6 +3,7 @@
 use super::node::Node;
 use super::reader::{Fields, Reader};
 use crate::http::problem::Code;
+use crate::reflectance::bounds::Bounds;
 use crate::reflectance::quantity::Quantity;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, SchemaType, Type};
 use utoipa::openapi::{OneOfBuilder, RefOr};
@@ -37,6 +38,9 @@ pub(crate) trait Wire: Sized {
     /// Whether a query may give it more than once.
     const REPEATABLE: bool = false;
 
+    /// The range of the number that it is, or that its elements are.
+    const RANGE: Option<&'static Bounds> = None;
+
     /// Its schema: inline, or a reference to one that [`Self::collect`] gathers.
     fn schema() -> RefOr<Schema>;
 
@@ -45,7 +49,13 @@ pub(crate) trait Wire: Sized {
 
     /// The parameters that carry it in a query: itself unless it is an object.
     fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
-        vec![Parameter { name, description: description.to_owned(), required, schema: Self::schema() }]
+        vec![Parameter {
+            name,
+            description: description.to_owned(),
+            required,
+            schema: Self::schema(),
+            bounds: Self::RANGE,
+        }]
     }
 }
 
@@ -55,11 +65,13 @@ pub(crate) struct Parameter {
     pub(crate) description: String,
     pub(crate) required: bool,
     pub(crate) schema: RefOr<Schema>,
+    pub(crate) bounds: Option<&'static Bounds>,
 }
 
 impl<T: Wire> Wire for Option<T> {
     const OPTIONAL: bool = true;
     const REPEATABLE: bool = T::REPEATABLE;
+    const RANGE: Option<&'static Bounds> = T::RANGE;
 
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         match node {
@@ -157,6 +169,8 @@ pub(crate) fn mismatch(found: &Node, expected: &dyn std::fmt::Display) -> String
 }
 
 impl<Q: Quantity> Wire for Q {
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
+
     fn read(node: Node, reader: &mut Reader) -> Option<Self> {
         let number = number(&node, reader, Q::BOUNDS)?;
         Q::new(number).map_err(|error| reader.error(Code::OutOfRange, error.to_string())).ok()

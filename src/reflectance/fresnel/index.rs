@@ -12,7 +12,7 @@ pub const ANGLE_ERROR: f64 = 14.0 * EPSILON;
 
 /// n − ik, the index of the lower medium relative to the upper one; k ≥ 0 absorbs. Energies are those of
 /// n + ik as well (errata E5).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct RefractiveIndex {
     /// n
     pub n: IndexN,

@@ -19,7 +19,7 @@ pub use index::{ANGLE_ERROR, RefractiveIndex};
 pub use polarization::{NotNormalized, Polarization};
 
 /// What the surface is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub enum Medium {
     /// Y → ∞ in (24), (25): F_para = 1 and F_perp = −1 at every angle.
     PerfectConductor,

@@ -6,7 +6,7 @@ use core::fmt;
 
 /// Shares h and v of the incident energy that are polarized parallel and perpendicular to the plane of incidence
 /// *of the facet*, (63), (64); energies, not amplitudes (errata E35).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash)]
 pub struct Polarization {
     parallel: Fraction,
     perpendicular: Fraction,

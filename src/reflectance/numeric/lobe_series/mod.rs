@@ -32,7 +32,7 @@ use patches::Tier;
 use saddle::Saddle;
 
 /// How the series is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
     /// The cheapest that keeps the truncation asked for.
     Auto,

@@ -1,75 +1,45 @@
-//! What happens around every request: its deadline, its problem document, its line in the log.
+//! What leaves the service in place of a handler's error, or of one that a library underneath made.
 
-use super::app::{App, Limits};
-use super::problem::{Kind, Problem};
+use super::known::Known;
+use crate::http::app::App;
+use crate::http::coding::Wanted;
+use crate::http::coding::compress::compress;
+use crate::http::problem::{Kind, Problem};
 use axum::body::{Body, HttpBody as _};
-use axum::extract::{FromRequestParts, Request, State};
-use axum::http::request::Parts;
 use axum::http::{HeaderValue, Method, StatusCode, header};
-use axum::middleware::Next;
 use axum::response::{IntoResponse as _, Response};
 use std::any::Any;
-use std::convert::Infallible;
-use std::time::Instant;
 
-/// When a request has to be answered.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Deadline {
-    pub(crate) at: tokio::time::Instant,
-    /// How long it was at first: for messages.
-    pub(crate) limit: std::time::Duration,
-}
-
-impl FromRequestParts<App> for Deadline {
-    type Rejection = Infallible;
-
-    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Infallible> {
-        Ok(parts.extensions.get::<Self>().copied().unwrap_or_else(|| Self::from_now(app.limits())))
-    }
-}
-
-impl Deadline {
-    fn from_now(limits: &Limits) -> Self {
-        Self { at: tokio::time::Instant::now() + limits.request_time, limit: limits.request_time }
-    }
-}
-
-/// Outermost layer: everything that leaves the service passes here.
-pub(super) async fn track(State(app): State<App>, mut request: Request, next: Next) -> Response {
-    let started = Instant::now();
-    let method = request.method().clone();
-    let path = request.uri().path().to_owned();
-    request.extensions_mut().insert(Deadline::from_now(app.limits()));
-
-    let response = next.run(request).await;
-    let mut response = settle(response, &method, &path);
-    if method == Method::HEAD {
+/// Gives every error its document, the client the coding that it wants, and HEAD no body.
+pub(super) async fn settle(app: &App, wanted: Wanted, response: Response, known: &Known) -> Response {
+    let response = with_document(response, &known.method, known.path());
+    let is_head = known.method == Method::HEAD;
+    let mut response = compress(app, wanted, is_head, response).await;
+    if is_head {
         // The length is that of the answer to GET; the bytes stay here.
         if let Some(length) = response.body().size_hint().exact() {
             response.headers_mut().entry(header::CONTENT_LENGTH).or_insert(length.into());
         }
         *response.body_mut() = Body::empty();
     }
-
-    tracing::info!(
-        %method,
-        path,
-        status = response.status().as_u16(),
-        microseconds = u64::try_from(started.elapsed().as_micros()).unwrap_or(u64::MAX),
-        bytes = response.body().size_hint().exact(),
-        "request"
-    );
     response
 }
 
-/// Gives every error its document.
-fn settle(response: Response, method: &Method, path: &str) -> Response {
+fn with_document(response: Response, method: &Method, path: &str) -> Response {
     let status = response.status();
+    if status.is_success() || status.is_redirection() {
+        return response;
+    }
     if status == StatusCode::METHOD_NOT_ALLOWED {
         return method_not_allowed(&response, method, path);
     }
     if let Some(problem) = response.extensions().get::<Problem>() {
-        return problem.render(path);
+        let mut document = problem.render(path);
+        if status.is_server_error() {
+            // For the log.
+            document.extensions_mut().insert(problem.clone());
+        }
+        return document;
     }
     // Errors made by the libraries underneath: a missing page of the reference, for one.
     match status {
@@ -99,18 +69,18 @@ fn method_not_allowed(response: &Response, method: &Method, path: &str) -> Respo
     answer
 }
 
-pub(super) fn not_found() -> Problem {
+/// No route has this path.
+pub(crate) fn not_found() -> Problem {
     Problem::new(Kind::NotFound, "No resource has this path. The reference at /docs lists those that exist.")
 }
 
 /// A panic in a handler is a defect. It costs its own request and no other.
-#[expect(clippy::needless_pass_by_value, reason = "the layer hands it over so")]
-pub(super) fn on_panic(panic: Box<dyn Any + Send>) -> Response {
+pub(super) fn on_panic(panic: &(dyn Any + Send), known: &Known) -> Response {
     let message = panic
         .downcast_ref::<&str>()
         .map(|text| (*text).to_owned())
         .or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_default();
-    tracing::error!(message, "a handler panicked");
+    tracing::error!(message, request_id = ?known.id, "a handler panicked");
     Problem::internal().into_response()
 }
