@@ -6,7 +6,7 @@ use crate::http::compute::admission::Turn;
 use crate::http::compute::job::Job;
 use crate::http::compute::too_slow;
 use crate::http::problem::{Kind, Problem};
-use crate::http::track::Deadline;
+use crate::http::edge::Deadline;
 use axum::body::Bytes;
 use axum::http::{HeaderMap, header};
 use brotli::reader::StandardAlloc;
