@@ -43,10 +43,10 @@ def quietly(server, seconds):
 
 @contextmanager
 def batches(server, end):
-    """Keeps the batches running, from a process of the lowest priority: the server is measured, not their clients."""
+    """Keeps the batches running, from a process of low priority: the server is measured, not their clients."""
     demands.body(LARGEST, end)
     script = Path(__file__).with_name("batch_clients.py")
-    command = ["nice", "-n", "19", sys.executable, script, *map(str, server.address), end, str(BATCHES), str(LARGEST)]
+    command = ["nice", "-n", "10", sys.executable, script, *map(str, server.address), end, str(BATCHES), str(LARGEST)]
     running = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     figures = {}
     try:

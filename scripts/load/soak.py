@@ -22,6 +22,8 @@ WARM_UP = 1 / 3
 CAPACITY_SECONDS = 5
 CLIENTS = 6
 BATCH = 20_000
+# Of the curve, as printed; all samples count.
+LINES = 30
 
 
 def mix():
@@ -138,9 +140,9 @@ def main():
         clients = start(server, CLIENTS / (rate / 2))
         taken, before = [], server.cpu()
         for sample in samples(server, seconds):
+            if len(taken) % max(1, seconds // LINES) == 0:
+                show(sample, (sample[4] - before) / max(sample[0], 1))
             taken.append(sample)
-            if len(taken) % max(1, seconds // 30) == 1:
-                show(sample, (sample[4] - before) / max(sample[0], 1e-9))
         requests = finish(clients)
         time.sleep(2)
         print(f"{requests} requests; {server.status('VmRSS') / 1e6:.1f} MB two seconds after the last")

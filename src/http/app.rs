@@ -16,8 +16,8 @@ struct Shared {
     limits: Limits,
     pool: Pool,
     admission: Admission,
-    doors: Arc<Doors>,
     edge: edge::State,
+    doors: Arc<Doors>,
 }
 
 /// What a request may be and take. Each has a flag, a place in `/v1/limits` and in the message of the error it causes.
@@ -73,8 +73,8 @@ impl App {
             limits,
             pool: Pool::new(config.capacity.pool_threads),
             admission: Admission::new(&limits),
-            doors: Doors::new(limits.connections),
             edge: edge::State::new(config),
+            doors: Doors::new(limits.connections),
         }))
     }
 

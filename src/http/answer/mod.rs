@@ -15,7 +15,7 @@ pub(crate) use work::{Over, Subject, Work};
 
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;
-use crate::http::edge::{Deadline, Tally as Counted};
+use crate::http::edge::{Asked, Deadline};
 use crate::http::negotiate::{Format, Tabular, VARY};
 use crate::http::problem::Problem;
 use axum::extract::FromRequestParts;
@@ -32,7 +32,6 @@ pub(crate) struct Call {
     app: App,
     pub(crate) format: Format,
     deadline: Deadline,
-    counted: Counted,
 }
 
 impl FromRequestParts<App> for Call {
@@ -41,17 +40,16 @@ impl FromRequestParts<App> for Call {
     async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Problem> {
         let Tabular(format) = Tabular::from_request_parts(parts, app).await?;
         let Ok(deadline) = Deadline::from_request_parts(parts, app).await;
-        let Ok(counted) = Counted::from_request_parts(parts, app).await;
-        Ok(Self { app: app.clone(), format, deadline, counted })
+        Ok(Self { app: app.clone(), format, deadline })
     }
 }
 
 /// Answers; `turn` if the request has had to wait for one already.
 pub(crate) async fn respond(call: Call, turn: Option<Turn>, mut work: Work) -> Result<Response, Problem> {
-    let Call { app, format, deadline, counted } = call;
+    let Call { app, format, deadline } = call;
     work.check(app.limits()).map_err(Problem::invalid)?;
-    counted.asked(work.rows());
-    work.counted = Some(counted);
+    work.meter = app.edge().meter();
+    let asked = Asked(work.rows());
     let nanoseconds = work.nanoseconds_a_row() * work.rows() as f64;
     let content_type = format.content_type();
     let mut response = if nanoseconds <= SMALL {
@@ -82,5 +80,6 @@ pub(crate) async fn respond(call: Call, turn: Option<Turn>, mut work: Work) -> R
         }?
     };
     response.headers_mut().insert(header::VARY, HeaderValue::from_static(VARY));
+    response.extensions_mut().insert(asked);
     Ok(response)
 }

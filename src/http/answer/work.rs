@@ -2,7 +2,7 @@
 
 use super::columns::Stretch;
 use crate::http::app::Limits;
-use crate::http::edge::Tally as Counted;
+use crate::http::edge::Meter;
 use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
@@ -26,12 +26,12 @@ const LEAST_ROWS: usize = 128;
 const MOST_ROWS: usize = 16 << 10;
 
 /// What is asked for.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) struct Work {
     pub(super) subject: Subject,
     pub(super) over: Over,
-    /// Where it is counted what was evaluated.
-    pub(super) counted: Option<Counted>,
+    /// Counts what is evaluated.
+    pub(super) meter: Meter,
 }
 
 /// Of what.
@@ -64,8 +64,8 @@ pub(super) enum Model {
 }
 
 impl Work {
-    pub(crate) const fn new(subject: Subject, over: Over) -> Self {
-        Self { subject, over, counted: None }
+    pub(crate) fn new(subject: Subject, over: Over) -> Self {
+        Self { subject, over, meter: Meter::default() }
     }
 
     pub(super) fn rows(&self) -> usize {
@@ -160,20 +160,18 @@ impl Work {
                 (&part, 0..range.len())
             }
         };
-        Ok(match &curve.model {
+        let stretch: Stretch = match &curve.model {
             Model::Scene(prepared) => {
-                let parts = prepared.stretch(directions, range, is_over).into_parts_after(before);
-                if let Some(counted) = &self.counted {
-                    counted.evaluated(&parts.tally);
-                }
-                parts.into()
+                prepared.stretch(directions, range, is_over).into_parts_after(before).into()
             }
             Model::Linear { scene, log10 } => {
                 let mut evaluation = scene.evaluate(directions, range, *log10, is_over);
                 evaluation.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.index += before);
                 evaluation.into()
             }
-        })
+        };
+        self.meter.add(&stretch.tally);
+        Ok(stretch)
     }
 
     /// The three angles of a range of a curve's points: θ_i, θ_r and φ_r, or the fixed and the swept angle and φ_r.

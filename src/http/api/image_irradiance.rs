@@ -186,7 +186,7 @@ fn without_model(object: Object, reader: &mut Reader) {
         }
     }
     fields.forget(&accepted);
-    fields.finish(reader, &accepted);
+    fields.finish(reader, || accepted);
 }
 
 /// Reads a radiance request whose sensor has to be a camera.

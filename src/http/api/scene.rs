@@ -100,7 +100,7 @@ impl Wire for Sensor {
             (false, false) => [patch, camera].concat(),
         };
         let sensor = take_sensor(&mut fields, reader);
-        fields.finish(reader, &accepted);
+        fields.finish(reader, || accepted);
         sensor
     }
 

@@ -39,14 +39,14 @@ impl Job {
         Duration::from_nanos(self.cpu_nanoseconds.load(Ordering::Relaxed))
     }
 
-    /// Does a piece of it and counts the processor time.
-    pub(super) fn measured<T>(&self, piece: impl FnOnce() -> T) -> T {
+    /// Does a piece of it and counts the processor time, which it says.
+    pub(super) fn measured<T>(&self, piece: impl FnOnce() -> T) -> (T, Duration) {
         let before = thread_time();
         let value = piece();
         let taken = thread_time().saturating_sub(before);
         let nanoseconds = u64::try_from(taken.as_nanos()).unwrap_or(u64::MAX);
         self.cpu_nanoseconds.fetch_add(nanoseconds, Ordering::Relaxed);
-        value
+        (value, taken)
     }
 }
 

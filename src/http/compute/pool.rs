@@ -5,6 +5,8 @@ use super::job::Job;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::time::Duration;
 use tokio::sync::oneshot;
 
 /// How far below the connections' threads: at 10 a thread gets a tenth of a processor that others want, and all
@@ -14,6 +16,15 @@ const NICENESS: i32 = 10;
 /// The pool.
 pub(crate) struct Pool {
     threads: Option<ThreadPool>,
+    counts: Arc<Counts>,
+}
+
+/// What the pool has done and does.
+#[derive(Debug, Default)]
+struct Counts {
+    pieces: AtomicU64,
+    busy_nanoseconds: AtomicU64,
+    active: AtomicUsize,
 }
 
 /// Why a piece of work has no result.
@@ -33,13 +44,25 @@ impl Pool {
             .thread_name(|index| format!("compute-{index}"))
             .start_handler(|_| lower_priority())
             .build();
-        match threads {
-            Ok(threads) => Self { threads: Some(threads) },
-            Err(error) => {
-                tracing::error!(%error, "no threads of their own for large work");
-                Self { threads: None }
-            }
-        }
+        let threads = threads
+            .inspect_err(|error| tracing::error!(%error, "no threads of their own for large work"))
+            .ok();
+        Self { threads, counts: Arc::default() }
+    }
+
+    /// Pieces that were worked on.
+    pub(crate) fn pieces(&self) -> u64 {
+        self.counts.pieces.load(Ordering::Relaxed)
+    }
+
+    /// Pieces that are worked on now.
+    pub(crate) fn active(&self) -> usize {
+        self.counts.active.load(Ordering::Relaxed)
+    }
+
+    /// The processor time of all pieces.
+    pub(crate) fn busy(&self) -> Duration {
+        Duration::from_nanos(self.counts.busy_nanoseconds.load(Ordering::Relaxed))
     }
 
     /// How many pieces are worked on at a time.
@@ -54,12 +77,18 @@ impl Pool {
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, NotDone> {
         let (sender, result) = oneshot::channel();
-        let job = Arc::clone(job);
+        let (job, counts) = (Arc::clone(job), Arc::clone(&self.counts));
         let piece = move || {
             let done = if job.is_stopped() || sender.is_closed() {
                 Err(NotDone::Stopped)
             } else {
-                job.measured(|| catch_unwind(AssertUnwindSafe(work))).map_err(|_| NotDone::Panicked)
+                counts.active.fetch_add(1, Ordering::Relaxed);
+                let (done, taken) = job.measured(|| catch_unwind(AssertUnwindSafe(work)));
+                counts.active.fetch_sub(1, Ordering::Relaxed);
+                counts.pieces.fetch_add(1, Ordering::Relaxed);
+                let nanoseconds = u64::try_from(taken.as_nanos()).unwrap_or(u64::MAX);
+                counts.busy_nanoseconds.fetch_add(nanoseconds, Ordering::Relaxed);
+                done.map_err(|_| NotDone::Panicked)
             };
             // Whoever waited for it may have left.
             let _ = sender.send(done);

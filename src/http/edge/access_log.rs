@@ -6,7 +6,6 @@ use super::record::Outcome;
 use crate::config::{LogFormat, Telemetry};
 use crate::logs::SINK;
 use std::io::Write as _;
-use std::sync::atomic::Ordering;
 use std::time::{SystemTime, UNIX_EPOCH};
 use tracing::level_filters::LevelFilter;
 
@@ -56,9 +55,8 @@ fn json(line: &mut Vec<u8>, known: &Known, outcome: &Outcome) {
         line.push(b'"');
     }
     text(line, b"client", known.client());
-    let directions = known.directions.load(Ordering::Relaxed);
-    if directions > 0 {
-        number(line, b"directions", directions as u64);
+    if outcome.directions > 0 {
+        number(line, b"directions", outcome.directions as u64);
     }
     if let Some(problem) = &outcome.problem {
         text(line, b"problem", problem);
@@ -79,9 +77,8 @@ fn human(line: &mut Vec<u8>, known: &Known, outcome: &Outcome) {
     line.extend_from_slice(" µs ".as_bytes());
     decimal(line, outcome.bytes);
     line.extend_from_slice(if outcome.cut { b" B, cut; " } else { b" B; " });
-    let directions = known.directions.load(Ordering::Relaxed);
-    if directions > 0 {
-        decimal(line, directions as u64);
+    if outcome.directions > 0 {
+        decimal(line, outcome.directions as u64);
         line.extend_from_slice(b" directions; ");
     }
     line.extend_from_slice(known.client().as_bytes());

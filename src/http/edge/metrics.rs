@@ -1,6 +1,8 @@
 //! What `/metrics` says.
 
 use super::known::Known;
+use super::meter::Meter;
+use super::process;
 use super::record::Outcome;
 use super::route;
 use crate::http::app::App;
@@ -43,7 +45,33 @@ const IN_FLIGHT: Description =
 const WAITING: Description =
     Description("reflectance_queue_waiting", "Large requests that wait for their turn");
 const CONNECTIONS: Description = Description("reflectance_connections", "Open connections");
+const POOL_THREADS: Description =
+    Description("reflectance_pool_threads", "Threads that large requests are worked on with");
+const POOL_ACTIVE: Description =
+    Description("reflectance_pool_active", "Pieces of large requests that are worked on now");
+const POOL_PIECES: Description =
+    Description("reflectance_pool_pieces_total", "Pieces of large requests that were worked on");
+const POOL_BUSY: Description =
+    Description("reflectance_pool_busy_seconds", "Processor time of those pieces, ever growing");
+const MEMORY: Description = Description("process_resident_memory_bytes", "Memory that the process holds");
+const DESCRIPTORS: Description = Description("process_open_fds", "Open file descriptors of the process");
+const PROCESSOR: Description =
+    Description("process_cpu_seconds_total", "Processor time of the process, ever growing");
 const DRAINING: Description = Description("reflectance_draining", "1 while the service stops, else 0");
+
+/// What is read when somebody asks, in the order of [`Metrics::read`].
+const GAUGES: [Description; 10] = [
+    IN_FLIGHT,
+    WAITING,
+    CONNECTIONS,
+    DRAINING,
+    POOL_THREADS,
+    POOL_ACTIVE,
+    POOL_BUSY,
+    MEMORY,
+    DESCRIPTORS,
+    PROCESSOR,
+];
 
 /// Counters and histograms, each looked up once.
 pub(super) struct Metrics {
@@ -51,16 +79,14 @@ pub(super) struct Metrics {
     handle: PrometheusHandle,
     /// By route, then by status; the last for any other status.
     requests: Vec<[OnceLock<(Counter, Histogram)>; STATUSES.len() + 1]>,
-    directions: [Counter; EvaluatedBy::ALL.len()],
+    pub(super) meter: Meter,
     pub(super) rate_limited: Counter,
     pub(super) keys_missing: Counter,
     pub(super) keys_wrong: Counter,
     pub(super) shed_in_flight: Counter,
     pub(super) shed_queue: Counter,
-    in_flight: Gauge,
-    waiting: Gauge,
-    connections: Gauge,
-    draining: Gauge,
+    pool_pieces: Counter,
+    gauges: [Gauge; GAUGES.len()],
 }
 
 impl Metrics {
@@ -71,10 +97,11 @@ impl Metrics {
             .set_buckets_for_metric(Matcher::Full(DURATION.0.to_owned()), &SECONDS)
             .unwrap_or_else(|_| PrometheusBuilder::new());
         let recorder = builder.build_recorder();
-        for Description(name, text) in [REQUESTS, DIRECTIONS, SHED, RATE_LIMITED, KEYS_REJECTED] {
+        for Description(name, text) in [REQUESTS, DIRECTIONS, SHED, RATE_LIMITED, KEYS_REJECTED, POOL_PIECES]
+        {
             recorder.describe_counter(name.into(), None, SharedString::from(text));
         }
-        for Description(name, text) in [IN_FLIGHT, WAITING, CONNECTIONS, DRAINING] {
+        for Description(name, text) in GAUGES {
             recorder.describe_gauge(name.into(), None, SharedString::from(text));
         }
         recorder.describe_histogram(DURATION.0.into(), None, SharedString::from(DURATION.1));
@@ -87,17 +114,17 @@ impl Metrics {
         Self {
             handle: recorder.handle(),
             requests: route::all().iter().map(|_| [const { OnceLock::new() }; STATUSES.len() + 1]).collect(),
-            directions: EvaluatedBy::ALL
-                .map(|by| counter(&DIRECTIONS, vec![Label::from_static_parts("method", by.name())])),
+            meter: Meter::new(
+                EvaluatedBy::ALL
+                    .map(|by| counter(&DIRECTIONS, vec![Label::from_static_parts("method", by.name())])),
+            ),
             rate_limited: counter(&RATE_LIMITED, Vec::new()),
             keys_missing: counter(&KEYS_REJECTED, reason("missing")),
             keys_wrong: counter(&KEYS_REJECTED, reason("wrong")),
             shed_in_flight: counter(&SHED, reason("in_flight")),
             shed_queue: counter(&SHED, reason("queue")),
-            in_flight: gauge(&IN_FLIGHT),
-            waiting: gauge(&WAITING),
-            connections: gauge(&CONNECTIONS),
-            draining: gauge(&DRAINING),
+            pool_pieces: counter(&POOL_PIECES, Vec::new()),
+            gauges: GAUGES.each_ref().map(gauge),
             recorder,
         }
     }
@@ -119,21 +146,30 @@ impl Metrics {
         duration.record(outcome.duration.as_secs_f64());
     }
 
-    /// Counts directions.
-    pub(super) fn evaluated(&self, by: EvaluatedBy, directions: usize) {
-        if let Some(place) = EvaluatedBy::ALL.iter().position(|one| *one == by) {
-            self.directions[place].increment(directions as u64);
-        }
-    }
-
     /// The text of `/metrics`.
     pub(super) fn text(&self, app: &App) -> String {
-        let edge = app.edge();
-        self.in_flight.set(edge.in_flight() as f64);
-        self.waiting.set(app.admission().waiting() as f64);
-        self.connections.set(app.doors().connections() as f64);
-        self.draining.set(f64::from(u8::from(app.doors().are_closing())));
+        for (gauge, value) in self.gauges.iter().zip(Self::read(app)) {
+            gauge.set(value);
+        }
+        self.pool_pieces.absolute(app.pool().pieces());
         self.handle.render()
+    }
+
+    /// What the gauges say now.
+    fn read(app: &App) -> [f64; GAUGES.len()] {
+        let (edge, pool) = (app.edge(), app.pool());
+        [
+            edge.in_flight() as f64,
+            app.admission().waiting() as f64,
+            app.doors().connections() as f64,
+            f64::from(u8::from(app.doors().are_closing())),
+            pool.width() as f64,
+            pool.active() as f64,
+            pool.busy().as_secs_f64(),
+            process::memory() as f64,
+            process::descriptors() as f64,
+            process::processor_time().as_secs_f64(),
+        ]
     }
 
     /// Sorts the durations of late into their buckets; until then each takes a word of memory.

@@ -9,8 +9,10 @@ mod headers;
 mod identity;
 mod keys;
 mod known;
+mod meter;
 mod metrics;
 mod peer;
+mod process;
 mod rate;
 mod record;
 mod route;
@@ -19,7 +21,7 @@ mod spans;
 
 pub(super) use deadline::Deadline;
 pub(super) use document::complete as complete_document;
-pub(super) use known::Tally;
+pub(super) use meter::{Asked, Meter};
 pub(super) use settle::not_found;
 
 use super::app::App;
@@ -88,6 +90,11 @@ impl State {
         self.in_flight.load(Ordering::Relaxed)
     }
 
+    /// Counts what is evaluated.
+    pub(super) fn meter(&self) -> Meter {
+        self.metrics.meter.clone()
+    }
+
     /// The text of `/metrics`.
     pub(super) fn metrics_text(&self, app: &App) -> String {
         self.metrics.text(app)
@@ -132,7 +139,7 @@ impl Edge {
         Self { gate: self.gate.clone(), peer: Arc::new(Peer::new(client)) }
     }
 
-    /// Answers a request, whatever it is.
+    /// Answers a request.
     pub(super) async fn answer(self, request: Request<Body>) -> Response {
         let app = &self.gate.app;
         let edge = app.edge();
@@ -145,7 +152,6 @@ impl Edge {
             trace: edge.trace(request.headers()),
             peer: self.peer,
             key: OnceLock::new(),
-            directions: AtomicUsize::new(0),
             counted: AtomicBool::new(false),
         });
         let app = app.clone();

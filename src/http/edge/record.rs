@@ -1,6 +1,7 @@
 //! What became of a request: written down once, when the last byte of its answer has left or can leave no more.
 
 use super::known::Known;
+use super::meter::Asked;
 use crate::http::app::App;
 use crate::http::problem::Problem;
 use axum::body::{Body, BodyDataStream, Bytes, HttpBody as _};
@@ -28,6 +29,8 @@ pub(super) struct Outcome {
     pub(super) bytes: u64,
     /// Whether the answer ended before its end.
     pub(super) cut: bool,
+    /// How many directions were asked for, where that is known.
+    pub(super) directions: usize,
     /// What went wrong, where that is the service's own matter.
     pub(super) problem: Option<String>,
 }
@@ -47,14 +50,23 @@ pub(super) struct Record {
 
 impl Record {
     pub(super) fn new(app: App, known: Arc<Known>) -> Self {
-        let outcome =
-            Outcome { status: CLIENT_LEFT, duration: Duration::ZERO, bytes: 0, cut: false, problem: None };
+        let outcome = Outcome {
+            status: CLIENT_LEFT,
+            duration: Duration::ZERO,
+            bytes: 0,
+            directions: 0,
+            cut: false,
+            problem: None,
+        };
         Self { app, known, outcome }
     }
 
     /// The request is answered. A long answer, and one whose length nobody knows, takes the record along.
     pub(super) fn answered(mut self, response: Response) -> Response {
         self.outcome.status = response.status().as_u16();
+        if let Some(Asked(directions)) = response.extensions().get() {
+            self.outcome.directions = *directions;
+        }
         if response.status().is_server_error()
             && let Some(problem) = response.extensions().get::<Problem>()
         {

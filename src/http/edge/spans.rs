@@ -73,7 +73,6 @@ impl Spans {
         let Some(trace) = known.trace.filter(|trace| trace.sampled) else { return };
         let Some((context, parent)) = identifiers(&trace) else { return };
         let end_time = SystemTime::now();
-        let directions = i64::try_from(known.directions.load(Ordering::Relaxed)).unwrap_or(i64::MAX);
         let status = i64::from(outcome.status);
         let mut attributes = vec![
             KeyValue::new("http.request.method", known.method.as_str().to_owned()),
@@ -86,7 +85,8 @@ impl Spans {
                 String::from_utf8_lossy(known.id.as_bytes()).into_owned(),
             ),
         ];
-        if directions > 0 {
+        if outcome.directions > 0 {
+            let directions = i64::try_from(outcome.directions).unwrap_or(i64::MAX);
             attributes.push(KeyValue::new("reflectance.directions", directions));
         }
         let failed = outcome.status >= 500 && outcome.status < 600;

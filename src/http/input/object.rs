@@ -43,7 +43,7 @@ pub(crate) trait WireObject: Sized {
         };
         let mut fields = Fields::new(object);
         let value = Self::take(&mut fields, reader);
-        fields.finish(reader, &Self::names());
+        fields.finish(reader, Self::names);
         value
     }
 

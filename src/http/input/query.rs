@@ -32,7 +32,7 @@ impl<S: Sync> FromRequestParts<S> for NoQuery {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
         let mut reader = Reader::query();
-        Fields::new(object(parts.uri.query().unwrap_or_default())?).finish(&mut reader, &[]);
+        Fields::new(object(parts.uri.query().unwrap_or_default())?).finish(&mut reader, Vec::new);
         reader.finish(Some(Self)).map_err(Problem::invalid)
     }
 }
@@ -45,9 +45,7 @@ pub(crate) fn read_beside<T: WireObject>(
 ) -> Result<T, Problem> {
     let mut fields = Fields::with_columns(object(query)?, columns);
     let value = T::take(&mut fields, &mut reader);
-    if !fields.is_spent() {
-        fields.finish(&mut reader, &T::flat_names());
-    }
+    fields.finish(&mut reader, T::flat_names);
     reader.finish(value).map_err(Problem::invalid)
 }
 

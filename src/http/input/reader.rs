@@ -200,11 +200,6 @@ impl Fields {
         self.has_any(names) || names.iter().any(|name| self.columns.has(name))
     }
 
-    /// Whether there is nothing left to refuse.
-    pub(crate) fn is_spent(&self) -> bool {
-        self.object.fields.is_empty() && self.object.duplicates.is_empty()
-    }
-
     /// Whether any of these is given.
     pub(crate) fn has_any(&self, names: &[&str]) -> bool {
         self.object.fields.iter().any(|(name, _)| names.contains(&name.as_str()))
@@ -250,10 +245,14 @@ impl Fields {
     }
 
     /// Refuses what is left, and what was given twice.
-    pub(crate) fn finish(self, reader: &mut Reader, accepted: &[&str]) {
+    pub(crate) fn finish(self, reader: &mut Reader, accepted: impl FnOnce() -> Vec<&'static str>) {
         for name in self.object.duplicates {
             reader.within(name, |reader| reader.error(Code::Duplicate, "given more than once"));
         }
+        if self.object.fields.is_empty() {
+            return;
+        }
+        let accepted = accepted();
         for (name, _) in self.object.fields {
             let accepted = if accepted.is_empty() { "none".to_owned() } else { accepted.join(", ") };
             let detail = format!("unknown; accepted here: {accepted}");

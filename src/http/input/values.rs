@@ -221,7 +221,7 @@ impl Wire for Medium {
                     let detail = format!("no materials are offered yet: expected {expected}");
                     reader.within("material", |reader| reader.error(Code::NotOffered, detail));
                 }
-                fields.finish(reader, &IndexWire::names());
+                fields.finish(reader, IndexWire::names);
                 None
             }
             Node::Object(_) => IndexWire::read_object(node, reader).and_then(|wire| index(&wire)),

@@ -14,6 +14,8 @@ use tokio::time::Instant;
 const PAUSE: Duration = Duration::from_millis(50);
 /// Between two lines in the log that say the same.
 const ONCE_IN: Duration = Duration::from_secs(60);
+/// Between two times of tidying up.
+const TIDY: Duration = Duration::from_secs(5);
 /// The time that connections take to end that are cut off.
 const CUT_TIME: Duration = Duration::from_secs(1);
 
@@ -107,7 +109,9 @@ pub(super) async fn serve(
     mut signals: Signals,
     stopping: Stopping,
     reload: impl Fn(),
+    tidy: impl Fn(),
 ) -> bool {
+    let mut tidying = tokio::time::interval(TIDY);
     let doors = Arc::clone(accept.server.doors());
     let drain = loop {
         tokio::select! {
@@ -116,7 +120,8 @@ pub(super) async fn serve(
                 Order::Reload => reload(),
                 Order::Drain => break true,
                 Order::Stop => break false,
-            }
+            },
+            _ = tidying.tick() => tidy(),
         }
     };
     if drain && !stopping.delay.is_zero() {

@@ -94,7 +94,7 @@ impl Server {
         };
         tracing::trace!(%peer, ?first, "a connection begins");
         // On the heap: a connection that waits is then as small as it can be.
-        Box::pin(self.begun(socket, first, peer, activity)).await;
+        Box::pin(self.begun(socket, peer, first, activity)).await;
         drop(inside);
     }
 
@@ -102,7 +102,7 @@ impl Server {
         Watch { activity, doors: &self.doors, times: self.times }
     }
 
-    async fn begun(&self, mut socket: TcpStream, first: First, peer: SocketAddr, activity: Arc<Activity>) {
+    async fn begun(&self, mut socket: TcpStream, peer: SocketAddr, first: First, activity: Arc<Activity>) {
         let (stream, protocol) = match (&self.tls, first) {
             (Some(tls), First::Tls) => {
                 let accept = tls.acceptor().accept(Wire::new(socket, Arc::clone(&activity)));

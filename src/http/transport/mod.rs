@@ -28,9 +28,6 @@ use std::time::Duration;
 use tls::Tls;
 use tokio::net::TcpListener;
 
-/// Between two rounds of what is to be done now and then.
-const TIDY: Duration = Duration::from_secs(5);
-
 /// The two protocols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Protocol {
@@ -72,41 +69,32 @@ impl Service {
     /// Serves until a signal says to leave, then lets the requests in flight finish. Says whether all did.
     pub async fn serve(self, listener: TcpListener, signals: Signals) -> bool {
         descriptors::raise(self.connection_limit);
-        let Self { app, tls, stopping, .. } = self;
-        let server = Arc::new(Server::new(app.clone(), service(&app), tls.clone()));
-        let all = tokio::select! {
-            all = accept::serve(Accept::new(listener, server), signals, stopping, || reload(&app, tls.as_deref())) => all,
-            () = tidy(&app) => false,
-        };
-        // Sends what is left to send, and waits for it.
+        let server = Arc::new(Server::new(self.app.clone(), service(&self.app), self.tls.clone()));
+        let accept = Accept::new(listener, server);
+        let all =
+            accept::serve(accept, signals, self.stopping, || self.reload(), || self.app.edge().tidy()).await;
+        let app = self.app;
+        // Spans go out by a request of their own, which may have to wait for the collector.
         if let Err(error) = tokio::task::spawn_blocking(move || app.edge().finish()).await {
-            tracing::warn!(%error, "the end was not told to whom it concerns");
+            tracing::warn!(%error, "the last spans may be lost");
         }
         all
     }
-}
 
-/// Reads again what may change while the service runs.
-fn reload(app: &App, tls: Option<&Tls>) {
-    let keys = app.edge().reload();
-    match &keys {
-        None => {}
-        Some(Ok(keys)) => tracing::info!(keys, "the keys were read again"),
-        Some(Err(error)) => tracing::error!(error, "the old keys stay"),
-    }
-    match tls.map(Tls::reload) {
-        None if keys.is_none() => tracing::info!("there is nothing to read again"),
-        None => {}
-        Some(Ok(())) => tracing::info!("certificate and key were read again"),
-        Some(Err(error)) => tracing::error!(error, "the old certificate stays"),
-    }
-}
-
-/// Does for ever what is to be done now and then.
-async fn tidy(app: &App) {
-    loop {
-        tokio::time::sleep(TIDY).await;
-        app.edge().tidy();
+    /// Reads again what may change while the service runs.
+    fn reload(&self) {
+        let tls = self.tls.as_deref().map(Tls::reload);
+        match &tls {
+            Some(Ok(())) => tracing::info!("certificate and key were read again"),
+            Some(Err(error)) => tracing::error!(error, "the old certificate stays"),
+            None => {}
+        }
+        match self.app.edge().reload() {
+            Some(Ok(keys)) => tracing::info!(keys, "keys were read again"),
+            Some(Err(error)) => tracing::error!(error, "the old keys stay"),
+            None if tls.is_none() => tracing::info!("nothing to read again"),
+            None => {}
+        }
     }
 }
 
