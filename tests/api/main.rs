@@ -9,6 +9,8 @@ mod compression;
 mod diagrams;
 mod documents;
 mod examples;
+mod formats;
+mod in_force;
 mod limits;
 mod plan;
 mod properties;
