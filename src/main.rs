@@ -39,6 +39,10 @@ fn serve(config: &Config) -> ExitCode {
 }
 
 async fn listen(config: &Config) -> ExitCode {
+    let service = match http::Service::prepare(config) {
+        Ok(service) => service,
+        Err(reason) => return fail(&reason),
+    };
     let listener = match TcpListener::bind(&config.listen).await {
         Ok(listener) => listener,
         Err(error) => {
@@ -50,14 +54,14 @@ async fn listen(config: &Config) -> ExitCode {
         Ok(address) => address,
         Err(error) => return fail(&format!("cannot tell the address of {}: {error}", config.listen)),
     };
-    let signals = match http::StopSignals::catch() {
+    let signals = match http::Signals::catch() {
         Ok(signals) => signals,
         Err(error) => return fail(&format!("cannot catch signals: {error}")),
     };
-    if print(&http::greeting(address)) != ExitCode::SUCCESS {
+    if print(&http::greeting(service.scheme(), address)) != ExitCode::SUCCESS {
         return ExitCode::FAILURE;
     }
-    if http::serve(listener, signals, config).await { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if service.serve(listener, signals).await { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Writes to standard output; a closed pipe is an exit code, not a panic.

@@ -3,6 +3,7 @@
 use super::compute::admission::Admission;
 use super::compute::pool::Pool;
 use super::edge;
+use super::transport::doors::Doors;
 use crate::config::Config;
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,6 +17,7 @@ struct Shared {
     pool: Pool,
     admission: Admission,
     edge: edge::State,
+    doors: Arc<Doors>,
 }
 
 /// What a request may be and take. Each has a flag, a place in `/v1/limits` and in the message of the error it causes.
@@ -72,6 +74,7 @@ impl App {
             pool: Pool::new(config.capacity.pool_threads),
             admission: Admission::new(&limits),
             edge: edge::State::new(config),
+            doors: Doors::new(limits.connections),
         }))
     }
 
@@ -89,5 +92,10 @@ impl App {
 
     pub(crate) fn admission(&self) -> &Admission {
         &self.0.admission
+    }
+
+    /// Whether the service is on its way out, and how many connections it has.
+    pub(crate) fn doors(&self) -> &Arc<Doors> {
+        &self.0.doors
     }
 }

@@ -6,7 +6,6 @@ mod app;
 mod body;
 mod coding;
 mod compute;
-mod connection;
 mod decode;
 mod edge;
 mod encode;
@@ -16,10 +15,10 @@ mod negotiate;
 mod openapi;
 mod problem;
 mod routes;
-mod serve;
+mod transport;
 
 pub use openapi::openapi_json;
-pub use serve::{StopSignals, serve};
+pub use transport::{Service, Signals};
 
 use crate::config::Config;
 use app::App;
@@ -38,10 +37,10 @@ fn service(app: &App) -> Edge {
 }
 
 /// What the program says when it is ready.
-pub fn greeting(address: SocketAddr) -> String {
+pub fn greeting(scheme: &str, address: SocketAddr) -> String {
     format!(
-        "reflectance {version} on http://{address}/  (reference: http://{address}/docs)\n\
-         Try: curl -s http://{address}/v1/radiance -H 'content-type: application/json' -d '{body}'\n",
+        "reflectance {version} on {scheme}://{address}/  (reference: {scheme}://{address}/docs)\n\
+         Try: curl -s {scheme}://{address}/v1/radiance -H 'content-type: application/json' -d '{body}'\n",
         version = env!("CARGO_PKG_VERSION"),
         body = api::FIRST_REQUEST.replace('\n', ""),
     )

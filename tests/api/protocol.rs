@@ -148,7 +148,7 @@ fn the_root_leads_to_the_reference() {
 
 #[test]
 fn a_client_that_stops_sending_is_let_go() {
-    let server = Server::with(&["--request-timeout-seconds", "0.3"]);
+    let server = Server::with(&["--request-timeout-seconds", "0.3", "--idle-timeout-seconds", "0.3"]);
     let head = "POST /v1/radiance HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: 100\r\n\r\n{";
     let stalled = |sent: &str| {
         let mut stream = TcpStream::connect(server.address()).unwrap();

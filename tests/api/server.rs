@@ -2,7 +2,7 @@
 
 use reqwest::blocking::{Client, RequestBuilder, Response};
 use serde_json::{Value, json};
-use std::io::{BufRead as _, BufReader};
+use std::io::{BufRead as _, BufReader, Read as _};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
 pub(crate) struct Server {
@@ -38,7 +38,7 @@ impl Server {
         }
         let url = greeting[0]
             .split_whitespace()
-            .find(|word| word.starts_with("http://"))
+            .find(|word| word.starts_with("http://") || word.starts_with("https://"))
             .expect("the greeting says where")
             .trim_end_matches('/')
             .to_owned();
@@ -47,7 +47,21 @@ impl Server {
 
     /// Host and port, for raw sockets.
     pub(crate) fn address(&self) -> &str {
-        self.url.trim_start_matches("http://")
+        self.url.split_once("://").expect("a scheme").1
+    }
+
+    /// Sends the process a signal, by the name that `kill` knows.
+    pub(crate) fn signal(&self, name: &str) {
+        let sent = Command::new("kill").args([&format!("-{name}"), &self.process.id().to_string()]).status();
+        assert!(sent.expect("kill runs").success());
+    }
+
+    /// Waits for the end: its exit code and what it wrote to standard error.
+    pub(crate) fn end(&mut self) -> (Option<i32>, String) {
+        let mut text = String::new();
+        let mut stderr = self.process.stderr.take().expect("stderr is piped");
+        stderr.read_to_string(&mut text).expect("text");
+        (self.process.wait().expect("an end").code(), text)
     }
 
     pub(crate) fn request(&self, method: &str, path: &str) -> RequestBuilder {

@@ -46,7 +46,7 @@ pub(crate) async fn livez() -> Json<Health> {
     )
 )]
 pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Health>, Problem> {
-    if app.edge().is_draining() {
+    if app.doors().are_closing() {
         return Err(Problem::new(Kind::Stopping, "The service is stopping; send new requests elsewhere."));
     }
     Ok(Json(Health { status: "ok" }))

@@ -161,8 +161,8 @@ impl Metrics {
         [
             edge.in_flight() as f64,
             app.admission().waiting() as f64,
-            edge.connections() as f64,
-            f64::from(u8::from(edge.is_draining())),
+            app.doors().connections() as f64,
+            f64::from(u8::from(app.doors().are_closing())),
             pool.width() as f64,
             pool.active() as f64,
             pool.busy().as_secs_f64(),

@@ -61,8 +61,6 @@ pub(super) struct State {
     rate: Option<RateLimit>,
     origins: Option<Origins>,
     in_flight: AtomicUsize,
-    connections: AtomicUsize,
-    draining: AtomicBool,
 }
 
 impl State {
@@ -78,8 +76,6 @@ impl State {
             rate: RateLimit::new(&config.access),
             origins: Origins::new(&config.access.cors_origin),
             in_flight: AtomicUsize::new(0),
-            connections: AtomicUsize::new(0),
-            draining: AtomicBool::new(false),
         }
     }
 
@@ -92,21 +88,6 @@ impl State {
     /// Requests that are being answered.
     pub(super) fn in_flight(&self) -> usize {
         self.in_flight.load(Ordering::Relaxed)
-    }
-
-    /// Open connections.
-    pub(super) fn connections(&self) -> usize {
-        self.connections.load(Ordering::Relaxed)
-    }
-
-    /// From now on the service says that it is not ready.
-    pub(super) fn drain(&self) {
-        self.draining.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether the service was told to stop.
-    pub(super) fn is_draining(&self) -> bool {
-        self.draining.load(Ordering::Relaxed)
     }
 
     /// Counts what is evaluated.
@@ -158,7 +139,8 @@ impl Edge {
         Self { gate: self.gate.clone(), peer: Arc::new(Peer::new(client)) }
     }
 
-    async fn answer(self, request: Request<Body>) -> Response {
+    /// Answers a request.
+    pub(super) async fn answer(self, request: Request<Body>) -> Response {
         let app = &self.gate.app;
         let edge = app.edge();
         let known = Arc::new(Known {
