@@ -17,6 +17,7 @@ mod properties;
 mod protocol;
 mod radiance;
 mod readme;
+mod secure;
 mod server;
 mod telemetry;
 mod tradeoff;

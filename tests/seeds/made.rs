@@ -73,6 +73,9 @@ pub(crate) fn write_all(seeds: &Path) -> Result<(), Box<dyn Error>> {
         b"post\napplication/json\nzstd\n\n\n\n\n\nhttps://example.org\napplication/json; charset=utf-8\ngzip",
     )?;
     write("headers", "options", b"options\n*/*\n\n\n\n\n\n\nhttps://example.org")?;
+
+    write("keys", "two", b"# who may ask\nalice 0123456789abcdef\n\n bob\t\"fedcba9876543210\"\r\n")?;
+    write("keys", "wrong", b"alice 0123456789abcdef\nalice 0123456789abcdeg\nbob short\nbob\n")?;
     Ok(())
 }
 
