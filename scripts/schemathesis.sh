@@ -1,11 +1,12 @@
 #!/bin/sh
-# Runs every check of schemathesis against the release binary, for three minutes at most.
-# Findings end it with a status other than 0. The tool lives in a virtual environment under target/.
+# Runs every check of schemathesis against the release binary, first open to anybody, then with a key, for some three
+# minutes at most. Findings end it with a status other than 0. The tool lives in a virtual environment under target/.
 set -eu
 cd "$(dirname "$0")/.."
 
 VERSION=4.32.0
-SECONDS_AT_MOST=${1:-150}
+SECONDS_AT_MOST=${1:-100}
+SECONDS_WITH_KEY=${2:-50}
 venv=target/schemathesis
 if [ ! -x "$venv/bin/schemathesis" ]; then
     # Debian keeps venv in a package of its own.
@@ -14,19 +15,38 @@ if [ ! -x "$venv/bin/schemathesis" ]; then
 fi
 
 cargo build --release --quiet
-said=$(mktemp)
-./target/release/reflectance --listen 127.0.0.1:0 --log-level warn >"$said" &
-server=$!
-trap 'kill $server 2>/dev/null || true; rm -f "$said"' EXIT INT TERM
-until grep -q '^Try:' "$said"; do
-    kill -0 $server
-    sleep 0.1
-done
-url=$(sed -n 's|.* on \(http://[^/ ]*\).*|\1|p' "$said")
-
-# From there, so that the tool keeps its notes under target/ too.
 config=$PWD/scripts/schemathesis.toml
-cd "$venv"
-timeout 180 ./bin/schemathesis --config-file "$config" run "$url/openapi.json" \
-    --checks all --max-time "$SECONDS_AT_MOST"
-kill -0 $server
+notes=$(mktemp -d)
+server=
+trap 'kill $server 2>/dev/null || true; rm -rf "$notes"' EXIT INT TERM
+
+# check SECONDS [HEADER [FLAG...]]: starts the service with the flags, and checks what it answers with the header.
+check() {
+    seconds=$1
+    header=${2:-}
+    shift; [ $# -eq 0 ] || shift
+    : >"$notes/said"
+    ./target/release/reflectance --listen 127.0.0.1:0 --log-level warn "$@" >"$notes/said" &
+    server=$!
+    until grep -q '^Try:' "$notes/said"; do
+        kill -0 $server
+        sleep 0.1
+    done
+    url=$(sed -n 's|.* on \(http://[^/ ]*\).*|\1|p' "$notes/said")
+    # From there, so that the tool keeps its notes under target/ too.
+    (
+        cd "$venv"
+        timeout $((seconds + 30)) ./bin/schemathesis --config-file "$config" run "$url/openapi.json" \
+            --checks all --max-time "$seconds" ${header:+-H "$header"}
+    )
+    kill -0 $server
+    kill $server
+    wait $server || true
+}
+
+echo "schemathesis: without keys"
+check "$SECONDS_AT_MOST"
+echo "schemathesis: with a key"
+key=0123456789abcdef0123456789abcdef
+echo "tester $key" >"$notes/keys"
+check "$SECONDS_WITH_KEY" "Authorization: Bearer $key" --api-keys-file "$notes/keys"

@@ -13,8 +13,10 @@ use tokio::runtime::{Builder, Runtime};
 use tower_service::Service as _;
 
 /// Small, so that inputs are many rather than large.
-const FLAGS: [&str; 13] = [
+const FLAGS: [&str; 15] = [
     "reflectance",
+    "--log-level",
+    "off",
     "--body-limit-bytes",
     "65536",
     "--expanded-body-limit-bytes",

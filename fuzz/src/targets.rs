@@ -3,6 +3,8 @@
 use crate::service::{ask, post};
 use axum::body::Body;
 use axum::http::{HeaderValue, Request};
+use reflectance::config::KeysFile;
+use std::collections::BTreeSet;
 
 /// One scene in a query.
 pub const SCENE: &str =
@@ -39,7 +41,7 @@ pub const HEADERS: [&str; 11] = [
 ];
 
 /// The targets whose input is bytes, by name.
-pub const TARGETS: [(&str, fn(&[u8])); 9] = [
+pub const TARGETS: [(&str, fn(&[u8])); 10] = [
     ("json_directions", json_directions),
     ("json_diagrams", json_diagrams),
     ("json_image_irradiance", json_image_irradiance),
@@ -49,6 +51,7 @@ pub const TARGETS: [(&str, fn(&[u8])); 9] = [
     ("packed", packed),
     ("query", query),
     ("headers", headers),
+    ("keys", keys),
 ];
 
 /// The one of several that an input's first byte chooses, and the rest of the input.
@@ -137,4 +140,19 @@ pub fn headers(data: &[u8]) {
         request = request.header(*name, value);
     }
     ask(request.body(Body::from("{}")).expect("a request"));
+}
+
+/// Files of keys.
+pub fn keys(data: &[u8]) {
+    let path = std::env::temp_dir().join(format!("reflectance-fuzz-{}", std::process::id()));
+    std::fs::write(&path, data).expect("a folder to write to");
+    match KeysFile::open(path.to_str().expect("a path in UTF-8")) {
+        Ok(file) => {
+            let names: BTreeSet<_> = file.keys().iter().map(|key| &key.name).collect();
+            assert_eq!(names.len(), file.keys().len(), "two clients of one name");
+            assert!(file.keys().iter().all(|key| key.secret.len() >= 16 && key.secret.is_ascii()));
+        }
+        // The service says it in one line and ends.
+        Err(reason) => assert_eq!(reason.lines().count(), 1, "{reason}"),
+    }
 }

@@ -51,7 +51,11 @@ class Connection:
     def exchange(self, message, keep=False):
         """Sends a request and reads its answer; the body is dropped unless it is to be kept."""
         self.started = time.perf_counter()
-        self.socket.sendall(message)
+        try:
+            self.socket.sendall(message)
+        except BrokenPipeError:
+            # A body that was refused before its end: the answer says why.
+            pass
         head = self._until(b"\r\n\r\n").decode("latin-1").split("\r\n")
         status = int(head[0].split()[1])
         headers = {name.lower(): value.strip() for name, _, value in (h.partition(":") for h in head[1:])}

@@ -14,7 +14,7 @@ LIMIT = 10
 LARGEST = 1_000_000
 # Processor seconds that a server without requests may use while it is watched.
 NOTHING = 0.3e-3
-WATCHED = 0.25
+WATCHED = 1.0
 
 
 def batch(rounds, end):
@@ -57,6 +57,6 @@ def leave(server, message, moment):
     samples = []
     while (now := time.perf_counter() - left) < WATCHED:
         samples.append((now, server.cpu()))
-        time.sleep(0.0002)
+        time.sleep(0.0002 if now < 0.05 else 0.005)
     total = samples[-1][1]
     return next(now for now, spent in samples if total - spent < NOTHING)

@@ -66,7 +66,7 @@ fn read(path: &Path) -> Result<Vec<Key>, String> {
 }
 
 /// The keys of a file's text. No message repeats a key.
-pub fn parse(text: &str) -> Result<Vec<Key>, String> {
+fn parse(text: &str) -> Result<Vec<Key>, String> {
     let mut keys: Vec<Key> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();

@@ -115,6 +115,14 @@ impl Connection {
         Ok(length)
     }
 
+    /// Takes what comes within a few milliseconds, and forgets it.
+    pub(crate) fn discard(&mut self) {
+        self.patience(Duration::from_millis(3));
+        // Nothing may have come.
+        let _ = self.more();
+        self.ahead.clear();
+    }
+
     /// Whether the server has closed, by the time that its patience ends.
     pub(crate) fn is_closed(&mut self) -> bool {
         loop {

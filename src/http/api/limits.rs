@@ -145,7 +145,6 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
         idle_time,
         stall_time,
     } = *limits;
-    let let_go = "the connection is closed";
     vec![
         ("body_limit_bytes", body_bytes.into(), "bytes", Refused(Kind::ContentTooLarge)),
         ("expanded_body_limit_bytes", expanded_body_bytes.into(), "bytes", Refused(Kind::ContentTooLarge)),
@@ -160,8 +159,13 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
         ("queue_limit", queue.into(), "requests", Refused(Kind::Overloaded)),
         ("queue_timeout_seconds", queue_time.into(), "seconds", Refused(Kind::Overloaded)),
         ("connection_limit", connections.into(), "connections", Else("they wait to be accepted")),
-        ("idle_timeout_seconds", idle_time.into(), "seconds", Else(let_go)),
-        ("stall_timeout_seconds", stall_time.into(), "seconds", Else(let_go)),
+        ("idle_timeout_seconds", idle_time.into(), "seconds", Else("the connection is closed")),
+        (
+            "stall_timeout_seconds",
+            stall_time.into(),
+            "seconds",
+            Else("refused with 408 while a body arrives; the connection is closed while an answer is sent"),
+        ),
     ]
 }
 

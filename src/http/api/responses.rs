@@ -17,8 +17,14 @@ impl IntoResponses for PostProblems {
             (Kind::MalformedJson, "The body is not JSON; the detail says in which line and column."),
             (Kind::NotAcceptable, "No accepted media type is offered; the detail lists those that are."),
             (Kind::RequestTimeout, "The request did not arrive in time."),
-            (Kind::ContentTooLarge, "The body is larger than the limit, which the detail names."),
-            (Kind::UnsupportedMediaType, "The body is not declared as JSON."),
+            (
+                Kind::ContentTooLarge,
+                "The body, as sent or expanded, is larger than the limit, which the detail names.",
+            ),
+            (
+                Kind::UnsupportedMediaType,
+                "The body is of a media type or in a content coding that is not read; the detail lists those that are.",
+            ),
             (Kind::InvalidRequest, "Fields are out of range or inconsistent: `errors` points at every one."),
             (Kind::TooSlow, "The answer was not ready within the time limit."),
         ])
@@ -63,6 +69,14 @@ pub(crate) fn list(problems: &[(Kind, &str)]) -> BTreeMap<String, RefOr<Response
                     .description(Some("Seconds after which to ask again."))
                     .build();
                 response = response.header("Retry-After", header);
+            }
+            if kind == Kind::UnsupportedMediaType {
+                let codings = ObjectBuilder::new().schema_type(Type::String);
+                let header = HeaderBuilder::new()
+                    .schema(Some(codings))
+                    .description(Some("Where it is the content coding: those that are read."))
+                    .build();
+                response = response.header("Accept-Encoding", header);
             }
             (kind.status().as_u16().to_string(), response.build().into())
         })

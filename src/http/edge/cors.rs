@@ -16,7 +16,7 @@ use tower_http::cors::{AllowOrigin, Any, Cors};
 use tower_service::Service;
 
 /// How long a browser may keep what it was allowed.
-const MAX_AGE: Duration = Duration::from_secs(3600);
+const MAX_AGE: Duration = Duration::from_hours(1);
 /// What a page may send.
 const ALLOWED: [HeaderName; 7] = [
     header::ACCEPT,

@@ -4,10 +4,9 @@ use super::known::Known;
 use super::meter::Asked;
 use crate::http::app::App;
 use crate::http::problem::Problem;
-use axum::body::{Body, BodyDataStream, Bytes, HttpBody as _};
-use axum::http::header;
+use axum::body::{Body, Bytes, HttpBody};
 use axum::response::Response;
-use futures_util::Stream;
+use hyper::body::{Frame, SizeHint};
 use std::pin::Pin;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -77,14 +76,8 @@ impl Record {
             self.outcome.bytes = length;
             return response;
         }
-        let (mut parts, body) = response.into_parts();
-        if let Some(length) = length {
-            // The stream below does not say its length.
-            parts.headers.insert(header::CONTENT_LENGTH, length.into());
-        }
         self.outcome.cut = true;
-        let body = Body::from_stream(Sent { body: body.into_data_stream(), length, record: self });
-        Response::from_parts(parts, body)
+        response.map(|body| Body::new(Sent { body, length, record: self }))
     }
 }
 
@@ -92,40 +85,53 @@ impl Drop for Record {
     fn drop(&mut self) {
         self.outcome.duration = self.known.started.elapsed();
         let edge = self.app.edge();
-        if self.known.counted.load(Ordering::Relaxed) {
-            edge.in_flight.fetch_sub(1, Ordering::Relaxed);
-        }
         edge.metrics.answered(&self.known, &self.outcome);
         edge.log.write(&self.known, &self.outcome);
         if let Some(spans) = &edge.spans {
             spans.answered(&self.known, &self.outcome);
+        }
+        // Last: whoever sees that nothing is in flight finds it counted.
+        if self.known.counted.load(Ordering::Relaxed) {
+            edge.in_flight.fetch_sub(1, Ordering::Relaxed);
         }
     }
 }
 
 /// A body on its way.
 struct Sent {
-    body: BodyDataStream,
+    body: Body,
     length: Option<u64>,
     record: Record,
 }
 
-impl Stream for Sent {
-    type Item = Result<Bytes, axum::Error>;
+impl HttpBody for Sent {
+    type Data = Bytes;
+    type Error = axum::Error;
 
-    fn poll_next(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        let piece = ready!(Pin::new(&mut self.body).poll_next(cx));
-        let this = &mut *self;
-        let outcome = &mut this.record.outcome;
-        match &piece {
-            Some(Ok(bytes)) => {
-                outcome.bytes += bytes.len() as u64;
+    fn poll_frame(
+        mut self: Pin<&mut Self>,
+        cx: &mut Context<'_>,
+    ) -> Poll<Option<Result<Frame<Bytes>, axum::Error>>> {
+        let frame = ready!(Pin::new(&mut self.body).poll_frame(cx));
+        let length = self.length;
+        let outcome = &mut self.record.outcome;
+        match &frame {
+            Some(Ok(frame)) => {
+                outcome.bytes += frame.data_ref().map_or(0, |data| data.len() as u64);
                 // Nobody asks for what comes after the last byte of a known length.
-                outcome.cut = this.length != Some(outcome.bytes);
+                outcome.cut = length != Some(outcome.bytes);
             }
             Some(Err(_)) => {}
             None => outcome.cut = false,
         }
-        Poll::Ready(piece)
+        Poll::Ready(frame)
+    }
+
+    fn is_end_stream(&self) -> bool {
+        self.body.is_end_stream()
+    }
+
+    fn size_hint(&self) -> SizeHint {
+        self.body.size_hint()
     }
 }

@@ -56,7 +56,7 @@ impl WithParameter {
     fn fits(&self, path: &str) -> bool {
         path.strip_prefix(&self.before)
             .and_then(|rest| rest.strip_suffix(&self.after))
-            .is_some_and(|value| !value.is_empty() && (self.any || !value.contains('/')))
+            .is_some_and(|value| self.any || !value.is_empty() && !value.contains('/'))
     }
 }
 
@@ -134,6 +134,7 @@ mod tests {
             ("/metrics", "/metrics", Class::Metrics),
             ("/", "/", Class::Open),
             ("/docs", "/docs", Class::Open),
+            ("/docs/", "/docs/{*rest}", Class::Open),
             ("/docs/swagger-ui.css", "/docs/{*rest}", Class::Open),
             ("/openapi.json", "/openapi.json", Class::Open),
             ("/v1/figures/", NO_ROUTE, Class::Guarded),

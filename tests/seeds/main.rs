@@ -1,16 +1,17 @@
 //! What the fuzz targets do, on their committed seeds and on what little changes make of them: without the nightly
-//! compiler that fuzzing itself needs.
+//! compiler that fuzzing itself needs. `UPDATE_SEEDS=1` writes them.
 
-#[path = "../fuzz/src/planner.rs"]
+mod made;
+#[path = "../../fuzz/src/planner.rs"]
 #[expect(unreachable_pub, reason = "a module of the library that the targets link")]
 mod planner;
-#[path = "../fuzz/src/scenes.rs"]
+#[path = "../../fuzz/src/scenes.rs"]
 #[expect(unreachable_pub, reason = "a module of the library that the targets link")]
 mod scenes;
-#[path = "../fuzz/src/service.rs"]
+#[path = "../../fuzz/src/service.rs"]
 #[expect(unreachable_pub, reason = "a module of the library that the targets link")]
 mod service;
-#[path = "../fuzz/src/targets.rs"]
+#[path = "../../fuzz/src/targets.rs"]
 #[expect(unreachable_pub, reason = "a module of the library that the targets link")]
 mod targets;
 
@@ -21,7 +22,7 @@ use std::path::Path;
 /// Changed copies of each seed.
 const COPIES: usize = 60;
 /// Scenes that are planned.
-const SCENES: usize = 400;
+const SCENES: usize = 4000;
 
 /// Pseudo-random numbers, the same in every run: xorshift.
 struct Random(u64);
@@ -62,6 +63,9 @@ fn changed(seed: &[u8], random: &mut Random) -> Vec<u8> {
 #[test]
 fn seeds_and_what_becomes_of_them_are_answered() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/seeds");
+    if std::env::var_os("UPDATE_SEEDS").is_some() {
+        made::write_all(&folder).expect("a folder to write to");
+    }
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for (name, target) in targets::TARGETS {
         let mut seeds = 0;

@@ -1,8 +1,8 @@
-//! Writes the seeds: real requests, from the examples of the service's own document and from real writers.
+//! The seeds: real requests, from the examples of the service's own document and from real writers.
 
+use crate::targets::{ENCODINGS, OF_DIRECTIONS, SCENE};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_ipc::writer::StreamWriter;
-use reflectance_fuzz::targets::{ENCODINGS, OF_DIRECTIONS, SCENE};
 use serde_json::Value;
 use std::error::Error;
 use std::fs;
@@ -10,9 +10,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-fn main() -> Result<(), Box<dyn Error>> {
+/// Writes all of them, each into the folder of its target.
+pub(crate) fn write_all(seeds: &Path) -> Result<(), Box<dyn Error>> {
     let document: Value = serde_json::from_str(&reflectance::http::openapi_json())?;
-    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds");
     let write = |target: &str, name: &str, bytes: &[u8]| -> std::io::Result<()> {
         let folder: PathBuf = seeds.join(target);
         fs::create_dir_all(&folder)?;
@@ -73,6 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         b"post\napplication/json\nzstd\n\n\n\n\n\nhttps://example.org\napplication/json; charset=utf-8\ngzip",
     )?;
     write("headers", "options", b"options\n*/*\n\n\n\n\n\n\nhttps://example.org")?;
+
+    write("keys", "two", b"# who may ask\nalice 0123456789abcdef\n\n bob\t\"fedcba9876543210\"\r\n")?;
+    write("keys", "wrong", b"alice 0123456789abcdef\nalice 0123456789abcdeg\nbob short\nbob\n")?;
     Ok(())
 }
 
