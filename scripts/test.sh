@@ -39,6 +39,9 @@ RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 step "the service against its own document, without keys and with"
 scripts/schemathesis.sh
 passes
+step "a minute at half load"
+scripts/soak.sh 60
+passes
 
 awk '/^test result:/ { passed += $4; failed += $6; ignored += $8 }
      END { printf "\n%d passed, %d failed, %d skipped\n", passed, failed, ignored; exit failed > 0 || passed == 0 }' "$log"

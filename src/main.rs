@@ -9,6 +9,11 @@ use std::io::Write as _;
 use std::process::ExitCode;
 use tokio::net::TcpListener;
 
+/// Memory that was freed goes back to the system soon: `.cargo/config.toml` says how soon. The system's allocator keeps
+/// what many large requests, or many connections, once needed.
+#[global_allocator]
+static ALLOCATOR: tikv_jemallocator::Jemalloc = tikv_jemallocator::Jemalloc;
+
 /// The exit code of a configuration that cannot be served.
 const UNUSABLE: u8 = 2;
 

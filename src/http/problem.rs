@@ -28,6 +28,7 @@ pub(crate) enum Kind {
     NotAcceptable,
     RequestTimeout,
     ContentTooLarge,
+    HeadTooLarge,
     UnsupportedMediaType,
     UnsupportedCoding,
     InvalidRequest,
@@ -42,7 +43,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// Every kind, in the order of their declaration.
-    pub(crate) const ALL: [Self; 20] = [
+    pub(crate) const ALL: [Self; 21] = [
         Self::MalformedJson,
         Self::MalformedQuery,
         Self::MalformedColumns,
@@ -53,6 +54,7 @@ impl Kind {
         Self::NotAcceptable,
         Self::RequestTimeout,
         Self::ContentTooLarge,
+        Self::HeadTooLarge,
         Self::UnsupportedMediaType,
         Self::UnsupportedCoding,
         Self::InvalidRequest,
@@ -94,6 +96,11 @@ impl Kind {
             Self::ContentTooLarge => {
                 ("content-too-large", StatusCode::PAYLOAD_TOO_LARGE, "The body is larger than the limit")
             }
+            Self::HeadTooLarge => (
+                "head-too-large",
+                StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE,
+                "The head of the request is larger than the limit",
+            ),
             Self::UnsupportedMediaType => (
                 "unsupported-media-type",
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -263,20 +270,24 @@ impl Problem {
         format!("{}: {}", self.kind.parts().0, self.detail)
     }
 
-    /// The response for a request to `path`, with `headers` that were already set (`Allow`).
-    pub(crate) fn render(&self, path: &str) -> Response {
-        let status = self.kind.status();
+    /// The document for a request to `path`.
+    pub(crate) fn document(&self, path: &str) -> Vec<u8> {
         let document = Document {
             kind: self.kind.reference(),
             title: self.kind.title(),
-            status: status.as_u16(),
+            status: self.kind.status().as_u16(),
             detail: &self.detail,
             instance: path,
             errors: &self.errors,
         };
         // Strings and small integers always serialize; an empty body would still carry the status.
-        let body = serde_json::to_vec(&document).unwrap_or_default();
-        let mut response = Response::new(Body::from(body));
+        serde_json::to_vec(&document).unwrap_or_default()
+    }
+
+    /// The response for a request to `path`, with `headers` that were already set (`Allow`).
+    pub(crate) fn render(&self, path: &str) -> Response {
+        let status = self.kind.status();
+        let mut response = Response::new(Body::from(self.document(path)));
         *response.status_mut() = status;
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON));

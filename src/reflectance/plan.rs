@@ -102,7 +102,7 @@ impl Plan {
             regimes: roughness_g.map(|extremes| extremes.map(Regime::of)),
             methods: evaluation.methods.clone(),
             ranges: ranges(by, &indices),
-            largest_bound: finite.fold(0.0, |largest, (bound, _)| f64::max(largest, *bound)),
+            largest_bound: finite.map(|(bound, _)| *bound).reduce(f64::max).unwrap_or(f64::INFINITY),
             cost: predicted(scene, &needed, &sampled, by),
             needed: requirement.evaluated,
             omitted: requirement.omitted,

@@ -10,6 +10,7 @@ mod diagrams;
 mod documents;
 mod examples;
 mod formats;
+mod http2;
 mod in_force;
 mod limits;
 mod plan;

@@ -113,6 +113,13 @@ pub(crate) fn problem(response: Response, status: u16) -> Value {
     document
 }
 
+/// Requests that the service is answering, by its own count.
+pub(crate) fn in_flight(server: &Server) -> usize {
+    let text = server.get("/metrics").text().expect("text");
+    let line = text.lines().find_map(|line| line.strip_prefix("reflectance_requests_in_flight "));
+    line.and_then(|count| count.parse().ok()).expect("a gauge")
+}
+
 /// Pointer and code of every error of a problem, sorted.
 pub(crate) fn errors(problem: &Value) -> Vec<(String, String)> {
     let text = |value: &Value| value.as_str().expect("a string").to_owned();

@@ -2,6 +2,7 @@
 
 use crate::server::Server;
 use crate::wire::{connect, ends, get, receive, send};
+use serde_json::Value;
 use std::io::{ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -207,4 +208,30 @@ fn an_answer_given_before_the_body_was_read_arrives() {
     stream.write_all(&vec![b' '; length]).unwrap();
     let answer = receive(&mut stream).unwrap();
     assert_eq!((answer.status, answer.is_last()), (404, true));
+}
+
+#[test]
+fn a_head_that_is_not_read_is_answered_with_a_problem() {
+    let server = Server::with(&["--head-limit-bytes", "8192"]);
+    let long = "x".repeat(9000);
+    for (head, status, word) in [
+        (format!("GET /{long} HTTP/1.1\r\nhost: x\r\n\r\n"), 431, "8192 bytes"),
+        (format!("GET / HTTP/1.1\r\nhost: x\r\nlong: {long}\r\n\r\n"), 431, "8192 bytes"),
+        (format!("GET / HTTP/1.1\r\nhost: x\r\n{}\r\n", "a: b\r\n".repeat(200)), 431, "8192 bytes"),
+        ("GET / HTTP/1.1\r\nho st: x\r\n\r\n".to_owned(), 400, "HTTP/1.1"),
+        ("no request at all\r\n\r\n".to_owned(), 400, "HTTP/1.1"),
+    ] {
+        let mut stream = connect(server.address());
+        stream.write_all(head.as_bytes()).unwrap();
+        let answer = receive(&mut stream).unwrap();
+        assert_eq!((answer.status, answer.is_last()), (status, true));
+        assert_eq!(answer.header("content-type"), Some("application/problem+json"));
+        let document: Value = serde_json::from_slice(&answer.body).unwrap();
+        assert_eq!(document["status"], status);
+        assert!(document["detail"].as_str().unwrap().contains(word), "{document}");
+        assert!(ends(&mut stream));
+    }
+    let just = "x".repeat(8000);
+    let mut stream = connect(server.address());
+    assert_eq!(get(&mut stream, &format!("/{just}")).unwrap().status, 404);
 }

@@ -148,7 +148,7 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
     vec![
         ("body_limit_bytes", body_bytes.into(), "bytes", Refused(Kind::ContentTooLarge)),
         ("expanded_body_limit_bytes", expanded_body_bytes.into(), "bytes", Refused(Kind::ContentTooLarge)),
-        ("head_limit_bytes", head_bytes.into(), "bytes", Else("refused with 431 and closed")),
+        ("head_limit_bytes", head_bytes.into(), "bytes", Refused(Kind::HeadTooLarge)),
         ("direction_limit", directions.into(), "directions", Refused(Kind::InvalidRequest)),
         ("row_limit", rows.into(), "rows", Refused(Kind::InvalidRequest)),
         ("request_timeout_seconds", request_time.into(), "seconds", Refused(Kind::TooSlow)),

@@ -44,7 +44,8 @@ pub(crate) struct PlanAnswer {
     methods: BTreeMap<&'static str, usize>,
     /// Runs of one method along the sampled directions; null if there are more than 64.
     method_ranges: Option<Vec<RangeAnswer>>,
-    /// The largest bound of a total's relative error among the sampled directions; null where it is not finite.
+    /// The largest bound of a total's relative error among the sampled directions whose total is a number; null where
+    /// there are none, or it is not finite.
     relative_error_bound: Option<f64>,
     /// Predicted.
     cost: CostAnswer,

@@ -82,6 +82,10 @@ const fn about(kind: Kind) -> &'static str {
             "The body, as sent or expanded, is longer than the limit that the detail names. Send it in parts; \
              /v1/limits lists the limits."
         }
+        Kind::HeadTooLarge => {
+            "The head of the request, its target and all its header fields, is longer than the limit that the detail \
+             names. What is long belongs into a body: every resource with a long query answers POST as well."
+        }
         Kind::UnsupportedMediaType => {
             "The header Content-Type names a media type that the resource does not read; the detail lists those \
              that it does."

@@ -40,7 +40,7 @@ pub(super) fn rows(rows: &Rows, out: &mut Vec<u8>) -> Result<(), Problem> {
             Cells::Names(names) if names.len() == rows.count => Column::Names(names),
             Cells::Numbers(_) | Cells::Names(_) => return Err(unfit()),
             Cells::Number(value) => {
-                number(value, &mut same)?;
+                number(value, &mut same);
                 Column::Same(same)
             }
             Cells::Name(name) => {
@@ -54,7 +54,7 @@ pub(super) fn rows(rows: &Rows, out: &mut Vec<u8>) -> Result<(), Problem> {
     for row in 0..rows.count {
         for column in &columns {
             match column {
-                Column::Numbers(numbers) => number(numbers[row], out)?,
+                Column::Numbers(numbers) => number(numbers[row], out),
                 Column::Names(names) => text(names[row], out),
                 Column::Same(bytes) => out.extend_from_slice(bytes),
             }
@@ -74,11 +74,10 @@ fn end(line: &mut Vec<u8>) {
 }
 
 /// The shortest digits that read back as the same number, as in JSON.
-fn number(value: f64, out: &mut Vec<u8>) -> Result<(), Problem> {
+fn number(value: f64, out: &mut Vec<u8>) {
     if value.is_finite() {
-        serde_json::to_writer(out, &value).map_err(|error| Problem::unwritten(&error))?;
+        out.extend_from_slice(zmij::Buffer::new().format_finite(value).as_bytes());
     }
-    Ok(())
 }
 
 /// A text, in quotes where it needs them.

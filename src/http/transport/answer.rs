@@ -33,10 +33,11 @@ impl Answer {
         Self::Plain(body, Some(exchange))
     }
 
-    /// Watched unless it fits into the buffer of a stream.
+    /// Watched unless it fits into the buffer of a stream: then it counts as sent, and does not keep a connection
+    /// that is otherwise idle.
     pub(super) fn watched(body: Body, exchange: Exchange, limits: &Limits) -> Self {
         if body.size_hint().upper().is_some_and(|length| length <= BUFFER as u64) {
-            return Self::plain(body, exchange);
+            return Self::Plain(body, None);
         }
         let watched = Arc::new(Watched {
             held: Mutex::new(Some(Held { body, rest: Bytes::new(), _exchange: exchange })),

@@ -3,7 +3,7 @@
 use super::Protocol;
 use super::activity::Activity;
 use super::answer::BUFFER;
-use super::doors::{Doors, Inside};
+use super::doors::{Doors, Inside, Stage};
 use super::exchange::Service;
 use super::stream::{Stream, Wire};
 use super::tls::{HTTP_2, Tls};
@@ -22,6 +22,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::TcpStream;
+use tokio::time::timeout;
 
 /// What a client sends first that speaks HTTP/2, RFC 9113 section 3.4.
 const PREFACE: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
@@ -40,7 +41,8 @@ const STREAMS: u32 = 100;
 const RESETS: usize = 20;
 /// Answers to a client's mistakes that are kept on one connection of HTTP/2.
 const ERRORS: usize = 256;
-/// How long the rest of a request is read and dropped after its answer.
+/// After an answer that did not wait for the rest of its request: how long that rest may pause while it is read and
+/// dropped.
 const LINGER: Duration = Duration::from_secs(2);
 
 /// What every connection shares.
@@ -64,7 +66,8 @@ impl Server {
         let mut http2 = http2::Builder::new(TokioExecutor::new());
         http2
             .timer(TokioTimer::new())
-            .max_header_list_size(u32::try_from(head).unwrap_or(u32::MAX))
+            // Beyond the limit there is an answer that says so, and beyond this there is none.
+            .max_header_list_size(u32::try_from(head.saturating_mul(2)).unwrap_or(u32::MAX))
             .max_concurrent_streams(STREAMS)
             .max_pending_accept_reset_streams(RESETS)
             .max_local_error_reset_streams(ERRORS)
@@ -103,6 +106,8 @@ impl Server {
     }
 
     async fn begun(&self, mut socket: TcpStream, peer: SocketAddr, first: First, activity: Arc<Activity>) {
+        let limits = self.app.limits();
+        let plain = |socket| Stream::plain(Wire::new(socket, Arc::clone(&activity)), limits);
         let (stream, protocol) = match (&self.tls, first) {
             (Some(tls), First::Tls) => {
                 let accept = tls.acceptor().accept(Wire::new(socket, Arc::clone(&activity)));
@@ -110,7 +115,7 @@ impl Server {
                     Some(Ok(stream)) => {
                         let chosen = stream.get_ref().1.alpn_protocol();
                         let http2 = chosen == Some(HTTP_2);
-                        (Stream::tls(stream), if http2 { Protocol::Http2 } else { Protocol::Http1 })
+                        (Stream::tls(stream, limits), if http2 { Protocol::Http2 } else { Protocol::Http1 })
                     }
                     Some(Err(error)) => return tracing::debug!(%error, "a handshake failed"),
                     None => return,
@@ -122,15 +127,13 @@ impl Server {
                 let _ = socket.shutdown().await;
                 return;
             }
-            (None, First::Http2) => {
-                (Stream::plain(Wire::new(socket, Arc::clone(&activity))), Protocol::Http2)
-            }
-            (None, _) => (Stream::plain(Wire::new(socket, Arc::clone(&activity))), Protocol::Http1),
+            (None, First::Http2) => (plain(socket), Protocol::Http2),
+            (None, _) => (plain(socket), Protocol::Http1),
         };
         let service = Arc::new(Service {
             edge: self.edge.of(peer),
             doors: Arc::clone(&self.doors),
-            limits: *self.app.limits(),
+            limits: *limits,
             activity,
             protocol,
         });
@@ -174,15 +177,18 @@ impl Server {
     /// Ends a connection of HTTP/1.
     async fn finish(&self, mut stream: Stream, activity: &Activity) {
         let finish = async {
-            stream.shutdown().await?;
+            timeout(LINGER, stream.shutdown()).await??;
             if activity.has_unread() {
                 // Bytes that nobody takes make the end a reset, which can overtake the answer.
-                let mut rest = [0; 4096];
-                while stream.read(&mut rest).await? > 0 {}
+                let mut rest = vec![0; PIECE];
+                while self.doors.stage() < Stage::Cutting
+                    && timeout(LINGER, stream.read(&mut rest)).await?? > 0
+                {}
             }
             io::Result::Ok(())
         };
-        if let Ok(Err(error)) = tokio::time::timeout(LINGER, finish).await {
+        // A client that never stops sending is let go all the same.
+        if let Ok(Err(error)) = timeout(self.app.limits().stall_time, finish).await {
             tracing::debug!(%error, "a connection did not end cleanly");
         }
     }

@@ -5,6 +5,7 @@ use super::activity::{Activity, Exchange};
 use super::answer::Answer;
 use super::doors::Doors;
 use super::received::Received;
+use super::refusal;
 use crate::http::app::Limits;
 use crate::http::edge::Edge;
 use axum::body::Body;
@@ -33,6 +34,13 @@ impl Service {
         exchange: Exchange,
         request: Request<Incoming>,
     ) -> Result<Response<Answer>, Infallible> {
+        if self.protocol == Protocol::Http2
+            && let Some(refusal) =
+                refusal::of_http2(request.method(), request.uri(), request.headers(), &self.limits)
+        {
+            let (parts, body) = refusal.into_parts();
+            return Ok(Response::from_parts(parts, Answer::plain(body, exchange)));
+        }
         let long = request.body().size_hint().exact().is_none_or(|length| length > SHORT);
         let request = request.map(|body| Body::new(Received::new(body, &self.activity)));
         let (mut parts, body) = self.edge.clone().answer(request).await.into_parts();

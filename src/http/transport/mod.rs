@@ -11,6 +11,7 @@ mod descriptors;
 pub(super) mod doors;
 mod exchange;
 mod received;
+mod refusal;
 mod signals;
 mod stream;
 mod tls;

@@ -1,10 +1,14 @@
 //! The bytes of a connection, on the wire and within TLS, with a note of what moves.
 
 use super::activity::Activity;
+use super::refusal;
+use crate::http::app::Limits;
+use axum::body::Bytes;
+use bytes::Buf as _;
 use std::io;
 use std::pin::Pin;
 use std::sync::Arc;
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, ready};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio_rustls::server::TlsStream;
@@ -76,34 +80,6 @@ enum Line {
     Tls(Box<TlsStream<Wire>>),
 }
 
-/// What HTTP is spoken on.
-#[derive(Debug)]
-pub(super) struct Stream {
-    line: Line,
-    activity: Arc<Activity>,
-}
-
-impl Stream {
-    pub(super) fn plain(wire: Wire) -> Self {
-        let activity = Arc::clone(&wire.activity);
-        Self { line: Line::Plain(wire), activity }
-    }
-
-    pub(super) fn tls(stream: TlsStream<Wire>) -> Self {
-        let activity = Arc::clone(&stream.get_ref().0.activity);
-        Self { line: Line::Tls(Box::new(stream)), activity }
-    }
-
-    /// Resolves once there is something to read, or the client left.
-    pub(super) async fn readable(&self) -> io::Result<()> {
-        let wire = match &self.line {
-            Line::Plain(wire) => wire,
-            Line::Tls(stream) => stream.get_ref().0,
-        };
-        wire.socket.readable().await
-    }
-}
-
 /// One of the two, as something to call the trait's methods on.
 macro_rules! line {
     ($stream:expr, $name:ident => $call:expr) => {
@@ -118,6 +94,57 @@ macro_rules! line {
             }
         }
     };
+}
+
+/// What HTTP is spoken on.
+#[derive(Debug)]
+pub(super) struct Stream {
+    line: Line,
+    activity: Arc<Activity>,
+    limits: Limits,
+    /// What goes out instead of the bytes that were to be sent.
+    instead: Bytes,
+}
+
+impl Stream {
+    pub(super) fn plain(wire: Wire, limits: &Limits) -> Self {
+        let activity = Arc::clone(&wire.activity);
+        Self { line: Line::Plain(wire), activity, limits: *limits, instead: Bytes::new() }
+    }
+
+    pub(super) fn tls(stream: TlsStream<Wire>, limits: &Limits) -> Self {
+        let activity = Arc::clone(&stream.get_ref().0.activity);
+        Self { line: Line::Tls(Box::new(stream)), activity, limits: *limits, instead: Bytes::new() }
+    }
+
+    /// Sends the document for a head that was refused, if `bytes` begin the bare answer to one: says so once all
+    /// of it is sent.
+    fn poll_refusal(&mut self, cx: &mut Context, bytes: &[u8]) -> Poll<io::Result<bool>> {
+        if self.instead.is_empty() {
+            match refusal::of_http1(bytes, &self.limits) {
+                Some(document) => self.instead = document.into(),
+                None => return Poll::Ready(Ok(false)),
+            }
+        }
+        while !self.instead.is_empty() {
+            let instead = self.instead.clone();
+            let sent = ready!(line!(self, line => line.poll_write(cx, &instead)))?;
+            if sent == 0 {
+                return Poll::Ready(Err(io::ErrorKind::WriteZero.into()));
+            }
+            self.instead.advance(sent);
+        }
+        Poll::Ready(Ok(true))
+    }
+
+    /// Resolves once there is something to read, or the client left.
+    pub(super) async fn readable(&self) -> io::Result<()> {
+        let wire = match &self.line {
+            Line::Plain(wire) => wire,
+            Line::Tls(stream) => stream.get_ref().0,
+        };
+        wire.socket.readable().await
+    }
 }
 
 impl AsyncRead for Stream {
@@ -139,6 +166,9 @@ impl AsyncRead for Stream {
 
 impl AsyncWrite for Stream {
     fn poll_write(mut self: Pin<&mut Self>, cx: &mut Context, bytes: &[u8]) -> Poll<io::Result<usize>> {
+        if ready!(self.poll_refusal(cx, bytes))? {
+            return Poll::Ready(Ok(bytes.len()));
+        }
         line!(self, line => line.poll_write(cx, bytes))
     }
 
@@ -147,6 +177,11 @@ impl AsyncWrite for Stream {
         cx: &mut Context,
         parts: &[io::IoSlice],
     ) -> Poll<io::Result<usize>> {
+        if let Some(first) = parts.first()
+            && ready!(self.poll_refusal(cx, first))?
+        {
+            return Poll::Ready(Ok(parts.iter().map(|part| part.len()).sum()));
+        }
         line!(self, line => line.poll_write_vectored(cx, parts))
     }
 

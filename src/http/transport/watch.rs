@@ -137,9 +137,9 @@ impl Watch<'_> {
             if phase == Phase::Http2 && (stage > begun_at || verdict == Verdict::End || asked.is_some()) {
                 let asked = asked.get_or_insert_with(|| {
                     end(future.as_mut());
-                    Asked { moves: self.activity.moves(), at: now }
+                    Asked { moves: self.activity.moves(), moved_at: now, busy_at: now }
                 });
-                if asked.is_ignored(self.activity, now) {
+                if asked.is_ignored(self.activity, now, self.times.stall) {
                     return None;
                 }
                 wake = now + QUIET;
@@ -185,15 +185,20 @@ impl Watch<'_> {
 /// client that is gone never does.
 struct Asked {
     moves: u64,
-    at: u64,
+    /// When something last moved, and when a request was last under way.
+    moved_at: u64,
+    busy_at: u64,
 }
 
 impl Asked {
-    /// Whether nothing is under way and nothing has moved for a while.
-    fn is_ignored(&mut self, activity: &Activity, now: u64) -> bool {
-        if activity.moves() != self.moves || !activity.is_idle() {
-            *self = Self { moves: activity.moves(), at: now };
+    /// Whether nothing is under way, and nothing has moved for a while or what moves leads to nothing.
+    fn is_ignored(&mut self, activity: &Activity, now: u64, stall: u64) -> bool {
+        if activity.moves() != self.moves {
+            (self.moves, self.moved_at) = (activity.moves(), now);
         }
-        now >= self.at + QUIET
+        if !activity.is_idle() {
+            (self.moved_at, self.busy_at) = (now, now);
+        }
+        now >= self.moved_at + QUIET || now >= self.busy_at + stall
     }
 }
