@@ -40,8 +40,11 @@ pub const HEADERS: [&str; 11] = [
     "range",
 ];
 
+/// A name, and what is done with the bytes.
+pub type Target = (&'static str, fn(&[u8]));
+
 /// The targets whose input is bytes, by name.
-pub const TARGETS: [(&str, fn(&[u8])); 10] = [
+pub const TARGETS: [Target; 10] = [
     ("json_directions", json_directions),
     ("json_diagrams", json_diagrams),
     ("json_image_irradiance", json_image_irradiance),

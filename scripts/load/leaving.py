@@ -33,14 +33,17 @@ def stops(rounds, name, message):
         with Connection(server.address, timeout=600) as connection:
             whole = accepted(connection.exchange(message)).last_byte
         trials = 4 * rounds
-        taken = [1e3 * leave(server, message, whole * (0.2 + 0.6 * trial / trials)) for trial in range(trials)]
+        moments = [whole * (0.2 + 0.6 * trial / trials) for trial in range(trials)]
+        taken, spent = zip(*(leave(server, message, moment) for moment in moments))
     # The longest counts: no cancelled request may compute longer.
-    note = f"longest of {trials}, median {median(taken):.1f}"
+    note = f"longest of {trials}, median {median(taken):.1f}; {max(spent):.1f} ms of processor time at most"
     return [within(f"idle after a client leaves: {name}", "ms", [max(taken)], LIMIT, note)]
 
 
 def leave(server, message, moment):
-    """Seconds until the processor rests, after leaving so long after the request began to be sent."""
+    """Milliseconds until the threads that compute rest, and those that they take until then, after leaving so many
+    seconds after the request began to be sent."""
+    clocks = server.workers()
     with Connection(server.address) as connection:
         start = time.perf_counter()
         connection.socket.sendall(message)
@@ -56,7 +59,8 @@ def leave(server, message, moment):
         connection.socket.close()
     samples = []
     while (now := time.perf_counter() - left) < WATCHED:
-        samples.append((now, server.cpu()))
+        samples.append((now, sum(int(clock.read_text().split()[0]) for clock in clocks) * 1e-9))
         time.sleep(0.0002 if now < 0.05 else 0.005)
     total = samples[-1][1]
-    return next(now for now, spent in samples if total - spent < NOTHING)
+    rested = next(now for now, spent in samples if total - spent < NOTHING)
+    return rested * 1e3, (total - samples[0][1]) * 1e3

@@ -62,6 +62,11 @@ class Process:
         # The kernel's clock of another process: see clock_getcpuclockid(3).
         return time.clock_gettime((~self.pid << 3) | 2)
 
+    def workers(self):
+        """The clocks of the threads that serve and compute: not of those by which jemalloc gives memory back."""
+        tasks = Path(f"/proc/{self.pid}/task").iterdir()
+        return [task / "schedstat" for task in tasks if not (task / "comm").read_text().startswith("jemalloc")]
+
     def status(self, field):
         """A number from /proc/PID/status; of memory in bytes."""
         for line in Path(f"/proc/{self.pid}/status").read_text().splitlines():

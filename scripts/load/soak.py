@@ -47,20 +47,19 @@ def mix():
 class Client(threading.Thread):
     """Asks at random, one request after another, every `interval` seconds on average; 0 is as fast as it can."""
 
-    def __init__(self, address, interval, seed):
+    def __init__(self, address, kinds, interval, seed):
         super().__init__(daemon=True)
-        self.address, self.interval = address, interval
+        self.address, self.kinds, self.interval = address, kinds, interval
         self.random = random.Random(seed)
         self.done, self.left, self.failures = 0, 0, []
         self.stop = threading.Event()
         self.connection = None
 
     def run(self):
-        kinds = mix()
-        weights = [kind[0] for kind in kinds]
+        weights = [kind[0] for kind in self.kinds]
         due = time.monotonic()
         while not self.stop.is_set():
-            _, message, leaves, expected = self.random.choices(kinds, weights)[0]
+            _, message, leaves, expected = self.random.choices(self.kinds, weights)[0]
             try:
                 self.ask(message, leaves, expected)
             except (OSError, ConnectionError) as error:
@@ -96,7 +95,9 @@ class Client(threading.Thread):
 
 
 def start(server, interval):
-    clients = [Client(server.address, interval, seed) for seed in range(CLIENTS)]
+    # Once for all: the first to ask for a batch writes it.
+    kinds = mix()
+    clients = [Client(server.address, kinds, interval, seed) for seed in range(CLIENTS)]
     for client in clients:
         client.start()
     return clients

@@ -6,7 +6,11 @@ use std::str::FromStr;
 use std::time::Duration;
 
 /// A whole number between two.
-pub(super) fn whole<N: FromStr + PartialOrd + Display>(text: &str, least: N, most: N) -> Result<N, String> {
+pub(super) fn whole<N: FromStr + PartialOrd + Display + Copy>(
+    text: &str,
+    least: N,
+    most: N,
+) -> Result<N, String> {
     text.parse()
         .ok()
         .filter(|number| (&least..=&most).contains(&number))

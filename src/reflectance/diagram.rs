@@ -231,18 +231,25 @@ impl Sweep {
 
     /// Some of the directions of the curve at one of the fixed angles: those of a range of the positions.
     pub fn directions(&self, fixed: f64, range: Range<usize>) -> Result<Directions, OutOfBounds> {
-        let (mut theta_i, mut theta_r) = (Vec::with_capacity(range.len()), Vec::with_capacity(range.len()));
-        for &position in &self.positions[range] {
-            let (source, viewer) = match self.axis {
-                SweepAxis::ThetaR => (fixed, position),
-                SweepAxis::ThetaI => (position, fixed),
-            };
-            // A source at −θ_i sees the viewer at −θ_r as the source at θ_i sees it at θ_r.
-            let mirrored = if source < 0.0 { -viewer } else { viewer };
-            theta_i.push(SourceZenith::new(source.abs())?);
-            theta_r.push(ViewerZenith::new(mirrored)?);
-        }
-        Ok(Directions::of_curve(theta_i, theta_r, Angles::One(self.phi_r)))
+        let positions = &self.positions[range];
+        let (theta_i, theta_r) = match self.axis {
+            SweepAxis::ThetaR => {
+                let viewers = positions.iter().map(|&position| ViewerZenith::new(position));
+                (Angles::One(SourceZenith::new(fixed)?), Angles::Each(viewers.collect::<Result<_, _>>()?))
+            }
+            SweepAxis::ThetaI => {
+                let sources = positions.iter().map(|&position| SourceZenith::new(position.abs()));
+                // A source at −θ_i sees the viewer at −θ_r as the source at θ_i sees it at θ_r.
+                let mirrored =
+                    |&position: &f64| ViewerZenith::new(if position < 0.0 { -fixed } else { fixed });
+                let viewers = positions.iter().map(mirrored);
+                (
+                    Angles::Each(sources.collect::<Result<_, _>>()?),
+                    Angles::Each(viewers.collect::<Result<_, _>>()?),
+                )
+            }
+        };
+        Ok(Directions::folded(theta_i, theta_r, Angles::One(self.phi_r), positions.len()))
     }
 
     /// Evaluates a scene along the sweep at each fixed angle.

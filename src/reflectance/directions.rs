@@ -193,8 +193,8 @@ impl Directions {
         Ok(Self::folded(theta_i, theta_r, phi_r, count))
     }
 
-    /// `count` directions, at least one.
-    fn folded(
+    /// `count` directions, at least one: each angle is one, or as many.
+    pub(super) fn folded(
         theta_i: Angles<SourceZenith>,
         theta_r: Angles<ViewerZenith>,
         phi_r: Angles<Azimuth>,
@@ -236,16 +236,6 @@ impl Directions {
             phi_r: self.phi_r.select(indices),
             count: indices.len(),
         }
-    }
-
-    /// A curve: as many source as viewer zeniths, at least one.
-    pub(super) fn of_curve(
-        theta_i: Vec<SourceZenith>,
-        theta_r: Vec<ViewerZenith>,
-        phi_r: Angles<Azimuth>,
-    ) -> Self {
-        let count = theta_i.len();
-        Self::folded(Angles::Each(theta_i), Angles::Each(theta_r), phi_r, count)
     }
 
     /// N.
@@ -327,7 +317,12 @@ mod tests {
             Angles::Each(viewers.clone()),
             Angles::Each(vec![azimuth; 3]),
         );
-        let curve = Directions::of_curve(vec![source; 3], viewers.clone(), Angles::One(azimuth));
+        let curve = Directions::folded(
+            Angles::Each(vec![source; 3]),
+            Angles::Each(viewers.clone()),
+            Angles::One(azimuth),
+            3,
+        );
         let (once, often) = (once.unwrap(), often.unwrap());
         assert_eq!(once.count(), 3);
         for other in [&often, &curve] {

@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use super::cost;
-use super::directions::Directions;
+use super::directions::{Directions, Extents};
 use super::findings::{Diagnostic, Omitted, Warning};
 use super::kernel::Kernel;
 use super::numeric::lobe_series::lanes::LANES;
@@ -65,28 +65,27 @@ pub struct Prepared {
     output: Output,
     share: f64,
     omitted: Vec<Omitted>,
-    warnings: Vec<Warning>,
+    extents: Extents,
+    asked: Scene,
 }
 
 impl Prepared {
     /// Finds what is required of a scene in these directions.
     pub fn new(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Self {
         let requirement = Requirement::of(scene, directions);
-        Self::required(scene, directions, quantity, output, requirement)
+        Self::required(scene, quantity, output, requirement)
     }
 
     /// With what is required known.
     pub(super) fn required(
         scene: &Scene,
-        directions: &Directions,
         quantity: Quantity,
         output: Output,
         requirement: Requirement,
     ) -> Self {
         let Requirement { evaluated, omitted, share, extents } = requirement;
         let needed = scene.with_only(&evaluated);
-        let warnings = strain::warnings(scene, &needed, directions, &extents, &omitted);
-        Self { scene: needed, quantity, output, share, omitted, warnings }
+        Self { scene: needed, quantity, output, share, omitted, extents, asked: scene.clone() }
     }
 
     /// What is asked for.
@@ -109,9 +108,9 @@ impl Prepared {
         &self.omitted
     }
 
-    /// What the caller should know whatever the values are.
-    pub fn warnings(&self) -> &[Warning] {
-        &self.warnings
+    /// What the caller should know whatever the values are, of the directions that it was made ready for.
+    pub fn warnings(&self, directions: &Directions) -> Vec<Warning> {
+        strain::warnings(&self.asked, &self.scene, directions, &self.extents, &self.omitted)
     }
 
     /// Evaluates a range of the directions that it was made ready for; `is_over` is asked every few tens of microseconds
@@ -144,7 +143,7 @@ impl Prepared {
         let threads = if count > PART { rayon::current_num_threads() } else { 1 };
         if threads == 1 {
             let whole = self.stretch(directions, 0..count, || false);
-            return self.finish(whole);
+            return self.finish(whole, directions);
         }
         let mut whole = self.room(0, count);
         let kernel = Kernel::new(&self.scene, self.quantity, self.share);
@@ -163,12 +162,12 @@ impl Prepared {
                 whole.append(part);
             }
         }
-        self.finish(whole)
+        self.finish(whole, directions)
     }
 
-    fn finish(self, whole: Stretch) -> Evaluation {
+    fn finish(self, whole: Stretch, directions: &Directions) -> Evaluation {
         let parts = whole.into_parts();
-        let mut warnings = self.warnings;
+        let mut warnings = self.warnings(directions);
         let methods = parts.tally.methods();
         warnings.extend(parts.tally.warnings());
         Evaluation {
@@ -207,5 +206,5 @@ pub(super) fn evaluate_required(
     output: Output,
     requirement: Requirement,
 ) -> Evaluation {
-    Prepared::required(scene, directions, quantity, output, requirement).whole(directions)
+    Prepared::required(scene, quantity, output, requirement).whole(directions)
 }

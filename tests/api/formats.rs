@@ -64,7 +64,9 @@ fn stream(batches: &[Vec<(&str, Vec<f64>)>]) -> Vec<u8> {
         })
         .collect();
     let mut writer = StreamWriter::try_new(Vec::new(), &batches[0].schema()).unwrap();
-    batches.iter().for_each(|batch| writer.write(batch).unwrap());
+    for batch in batches {
+        writer.write(&batch).unwrap();
+    }
     writer.into_inner().unwrap()
 }
 
@@ -162,7 +164,8 @@ fn columns_are_the_arrays_of_a_json_request() {
     let expected = server.answer("/v1/radiance", &body());
     let (i, r) = (column(0), column(1));
     let mut text = "theta_r_deg,theta_i_deg\r\n".to_owned();
-    i.iter().zip(&r).for_each(|(i, r)| text.push_str(&format!("{r},{i}\r\n")));
+    let rows: Vec<String> = i.iter().zip(&r).map(|(i, r)| format!("{r},{i}\r\n")).collect();
+    text.push_str(&rows.concat());
     let split = |range: std::ops::Range<usize>| {
         vec![("theta_i_deg", i[range.clone()].to_vec()), ("theta_r_deg", r[range].to_vec())]
     };

@@ -90,7 +90,7 @@ fn connections_beyond_the_limit_wait_for_their_turn() {
     assert_eq!(error.kind(), ErrorKind::WouldBlock);
     let [first, _second] = inside;
     drop(first);
-    outside.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    outside.set_read_timeout(Some(Duration::from_mins(1))).unwrap();
     assert_eq!(receive(&mut outside).unwrap().status, 200);
 }
 
@@ -156,9 +156,10 @@ fn clients_that_wait_to_be_accepted_are_answered_before_the_end() {
     for stream in &mut waiting[40..] {
         send(stream, "/livez").unwrap();
     }
-    for stream in &mut waiting {
+    // Some of the first may be answered before the signal is looked at.
+    for (place, stream) in waiting.iter_mut().enumerate() {
         let answer = receive(stream).unwrap();
-        assert_eq!((answer.status, answer.is_last()), (200, true));
+        assert_eq!((answer.status, answer.is_last() || place < 40), (200, true));
     }
     assert_eq!(server.end().0, Some(0));
 }

@@ -36,7 +36,7 @@ fn npy() -> Vec<u8> {
     let mut head = "{'descr': [('theta_i_deg', '<f8'), ('theta_r_deg', '<f8')], 'fortran_order': False, \
                     'shape': (20,), }"
         .to_owned();
-    while (10 + head.len() + 1) % 64 != 0 {
+    while !(10 + head.len() + 1).is_multiple_of(64) {
         head.push(' ');
     }
     head.push('\n');
@@ -52,7 +52,8 @@ fn npy() -> Vec<u8> {
 }
 
 fn csv() -> Vec<u8> {
-    let rows: String = (0..20).map(|angle| format!("{angle},{},{}\r\n", 2 * angle, 0.5)).collect();
+    let rows: Vec<String> = (0..20).map(|angle| format!("{angle},{},0.5\r\n", 2 * angle)).collect();
+    let rows = rows.concat();
     format!("theta_i_deg,theta_r_deg,phi_r_deg\r\n{rows}").into_bytes()
 }
 

@@ -88,8 +88,8 @@ impl Connection {
     pub(crate) fn open(address: &str) -> io::Result<Self> {
         let stream = TcpStream::connect(address)?;
         stream.set_nodelay(true)?;
-        stream.set_read_timeout(Some(Duration::from_secs(60)))?;
-        stream.set_write_timeout(Some(Duration::from_secs(60)))?;
+        stream.set_read_timeout(Some(Duration::from_mins(1)))?;
+        stream.set_write_timeout(Some(Duration::from_mins(1)))?;
         Ok(Self { stream, ahead: Vec::new() })
     }
 
@@ -109,7 +109,7 @@ impl Connection {
 
     /// Reads on; 0 where the server has closed.
     pub(crate) fn more(&mut self) -> io::Result<usize> {
-        let mut bytes = [0; 64 << 10];
+        let mut bytes = vec![0; 64 << 10];
         let length = self.stream.read(&mut bytes)?;
         self.ahead.extend_from_slice(&bytes[..length]);
         Ok(length)

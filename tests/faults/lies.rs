@@ -171,7 +171,7 @@ fn heads_that_are_too_large_or_none_are_refused() {
         let found = statuses(&answers);
         // 431 and 414 say the same of a head that is too large.
         let accepted = if expected == 400 { vec![400] } else { vec![414, 431] };
-        assert!(found.len() == 1 && accepted.contains(&found[0]), "{found:?} to {:.60}", head);
+        assert!(found.len() == 1 && accepted.contains(&found[0]), "{found:?} to {head:.60}");
     }
     service.lives();
 }

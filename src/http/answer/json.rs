@@ -36,7 +36,7 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
         if let Some(delta_on) = &stretch.delta_on {
             text.list("delta_on", |text| text.booleans(delta_on, true));
         }
-        text.findings(&curve.model, stretch.tally)?;
+        text.findings(&curve.model, work.warnings(&curve)?, stretch.tally)?;
         text.name("diagnostics");
         text.push("[");
         text.diagnostics(&stretch.diagnostics, true)?;
@@ -127,7 +127,9 @@ async fn stream_curve(work: &Arc<Work>, curve: &Curve, text: &mut Text, output: 
         send_list(output, text, columns, |text, booleans, first| text.booleans(&booleans, first)).await?;
         text.push("]");
     }
-    text.findings(&curve.model, tally)?;
+    let of_curve = (Arc::clone(work), curve.clone());
+    let warnings = output.run(move |_| of_curve.0.warnings(&of_curve.1)).await??;
+    text.findings(&curve.model, warnings, tally)?;
     text.name("diagnostics");
     text.push("[");
     let mut first = true;

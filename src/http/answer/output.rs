@@ -111,7 +111,7 @@ pub(super) async fn begin<F: Future<Output = Result<(), End>> + Send + 'static>(
         Err(_) => return Err(crate::http::compute::too_slow(deadline)),
     };
     let mut response =
-        Response::new(Body::from_stream(Parts { first: Some(first), parts, _abandon: abandon }));
+        Response::new(Body::from_stream(Parts { first: Some(first), rest: parts, _abandon: abandon }));
     response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(content_type));
     Ok(response)
 }
@@ -119,7 +119,7 @@ pub(super) async fn begin<F: Future<Output = Result<(), End>> + Send + 'static>(
 /// The body of an answer that is being made.
 struct Parts {
     first: Option<Bytes>,
-    parts: mpsc::Receiver<Result<Bytes, Problem>>,
+    rest: mpsc::Receiver<Result<Bytes, Problem>>,
     _abandon: Abandon,
 }
 
@@ -130,7 +130,7 @@ impl Stream for Parts {
         if let Some(first) = self.first.take() {
             return Poll::Ready(Some(Ok(first)));
         }
-        self.parts.poll_recv(cx).map(|part| {
+        self.rest.poll_recv(cx).map(|part| {
             part.map(|part| {
                 part.map_err(|problem| {
                     tracing::warn!(detail = problem.detail, "an answer was cut short");

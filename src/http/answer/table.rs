@@ -99,7 +99,9 @@ impl Table {
         if let Subject::Linear { .. } = work.subject {
             columns.push(text("delta_on", "false".len()));
         }
-        let notes: Vec<Note> = curves.iter().map(Note::of).collect();
+        // The other formats have no place for them.
+        let noted = if format == RowFormat::Arrow { curves.as_slice() } else { &[] };
+        let notes = noted.iter().map(|curve| Note::of(work, curve)).collect::<Result<Vec<_>, _>>()?;
         let series = serde_json::to_string(&notes).map_err(|error| Problem::unwritten(&error))?;
         let notes = vec![("quantity", work.quantity().name().to_owned()), ("series", series)];
         Ok(Self { format, head: Head { columns, rows: work.rows(), notes }, curves })
@@ -149,15 +151,15 @@ impl Table {
 }
 
 impl Note {
-    fn of(curve: &Curve) -> Self {
-        let (omitted, warnings) = match &curve.model {
-            Model::Scene(prepared) => (prepared.omitted(), prepared.warnings()),
-            Model::Linear { .. } => (&[][..], &[][..]),
+    fn of(work: &Work, curve: &Curve) -> Result<Self, Problem> {
+        let omitted = match &curve.model {
+            Model::Scene(prepared) => prepared.omitted(),
+            Model::Linear { .. } => &[],
         };
-        Self {
+        Ok(Self {
             at_deg: curve.at_deg,
             omitted: omitted.iter().cloned().map(OmittedAnswer::from).collect(),
-            warnings: warnings.iter().cloned().map(WarningAnswer::from).collect(),
-        }
+            warnings: work.warnings(curve)?.into_iter().map(WarningAnswer::from).collect(),
+        })
     }
 }

@@ -62,7 +62,7 @@ fn overs() -> [Over; 2] {
 }
 
 async fn streamed(app: &App, work: &Work, format: Option<RowFormat>) -> Vec<u8> {
-    let limit = Duration::from_secs(600);
+    let limit = Duration::from_mins(10);
     let deadline = Deadline { at: tokio::time::Instant::now() + limit, limit };
     let turn = app.admission().turn().await.unwrap();
     let work = Arc::new(work.clone());

@@ -4,7 +4,7 @@ use super::work::Model;
 use crate::http::api::answer::{DiagnosticAnswer, OmittedAnswer, WarningAnswer};
 use crate::http::problem::Problem;
 use crate::reflectance::evaluate::{EvaluatedBy, Tally};
-use crate::reflectance::findings::Diagnostic;
+use crate::reflectance::findings::{Diagnostic, Warning};
 use serde::Serialize;
 
 /// Bytes of a number with its comma: 17 digits, a point, a sign and an exponent at most.
@@ -96,7 +96,12 @@ impl Text {
     }
 
     /// What is counted over a curve, up to its diagnostics.
-    pub(super) fn findings(&mut self, model: &Model, tally: Tally) -> Result<(), Problem> {
+    pub(super) fn findings(
+        &mut self,
+        model: &Model,
+        warnings: Vec<Warning>,
+        tally: Tally,
+    ) -> Result<(), Problem> {
         // A linear model has one way to be evaluated, and leaves nothing out.
         let Model::Scene(prepared) = model else { return Ok(()) };
         self.name("methods");
@@ -109,7 +114,7 @@ impl Text {
         self.name("omitted");
         self.value(&prepared.omitted().iter().cloned().map(OmittedAnswer::from).collect::<Vec<_>>())?;
         self.name("warnings");
-        let warnings = prepared.warnings().iter().cloned().chain(tally.warnings());
+        let warnings = warnings.into_iter().chain(tally.warnings());
         self.value(&warnings.map(WarningAnswer::from).collect::<Vec<_>>())
     }
 }

@@ -7,6 +7,7 @@ use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
+use crate::reflectance::findings::Warning;
 use crate::reflectance::linear_image::LinearScene;
 use crate::reflectance::quantity::OutOfBounds;
 use crate::reflectance::scene::{Component, Scene};
@@ -138,6 +139,18 @@ impl Work {
             }
         };
         Ok(Curve { at_deg, model })
+    }
+
+    /// What the caller should know of a curve whatever its values are.
+    pub(super) fn warnings(&self, curve: &Curve) -> Result<Vec<Warning>, Problem> {
+        let Model::Scene(prepared) = &curve.model else { return Ok(Vec::new()) };
+        Ok(match &self.over {
+            Over::Directions(directions) => prepared.warnings(directions),
+            Over::Sweep(sweep) => {
+                let at = curve.at_deg.unwrap_or_default();
+                prepared.warnings(&sweep.directions(at, 0..self.points()).map_err(left_range)?)
+            }
+        })
     }
 
     /// Evaluates a range of a curve's points; `is_over` says whether to stop.

@@ -27,7 +27,9 @@ pub(super) fn columns(bytes: &[u8], most: usize, notes: &mut Notes) -> Result<Ve
     }
     let mut columns: Vec<Column> = columns.into_iter().flatten().collect();
     if length > most {
-        columns.iter_mut().for_each(|column| column.only_length(length));
+        for column in &mut columns {
+            column.only_length(length);
+        }
     }
     Ok(columns)
 }

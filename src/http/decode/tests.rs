@@ -10,12 +10,11 @@ use arrow_ipc::writer::StreamWriter;
 use arrow_schema::Schema;
 use std::sync::Arc;
 
-/// What was read, or what was wrong: with columns, or with the body.
-fn read(
-    format: Format,
-    bytes: &[u8],
-    most: usize,
-) -> (Result<Vec<(&'static str, Array)>, String>, Vec<FieldError>) {
+/// The columns of a body, or what is wrong with the body.
+type Read = Result<Vec<(&'static str, Array)>, String>;
+
+/// What was read, and what was wrong with the columns.
+fn read(format: Format, bytes: &[u8], most: usize) -> (Read, Vec<FieldError>) {
     let mut reader = Reader::query().with_most_directions(most);
     let read = columns(format, bytes, &mut reader);
     let read = read.map(|columns| columns.0.into_iter().map(|column| (column.name, column.array)).collect());

@@ -13,7 +13,7 @@ use tokio::time::Instant;
 /// After a failed accept (out of file descriptors, say) wait rather than spin.
 const PAUSE: Duration = Duration::from_millis(50);
 /// Between two lines in the log that say the same.
-const ONCE_IN: Duration = Duration::from_secs(60);
+const ONCE_IN: Duration = Duration::from_mins(1);
 /// Between two times of tidying up.
 const TIDY: Duration = Duration::from_secs(5);
 /// The time that connections take to end that are cut off.
