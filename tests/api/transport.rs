@@ -77,6 +77,31 @@ fn an_idle_connection_that_was_put_to_sleep_wakes_up() {
 }
 
 #[test]
+fn a_client_that_leaves_while_its_connection_sleeps_is_forgotten() {
+    let server = Server::start();
+    let connections = || {
+        let text = server.get("/metrics").text().unwrap();
+        let line = text.lines().find_map(|line| line.strip_prefix("reflectance_connections ")).unwrap();
+        line.parse::<usize>().unwrap()
+    };
+    let mut sleeping: Vec<_> = (0..8).map(|_| connect(server.address())).collect();
+    for stream in &mut sleeping {
+        assert_eq!(get(stream, "/livez").unwrap().status, 200);
+    }
+    // Longer than its buffers are kept.
+    std::thread::sleep(Duration::from_secs(6));
+    assert!(connections() > 8);
+    drop(sleeping);
+    let mut looks = 0;
+    // One is that of whoever asks.
+    while connections() > 1 {
+        looks += 1;
+        assert!(looks < 1000, "{} connections are held", connections());
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
 fn connections_beyond_the_limit_wait_for_their_turn() {
     let server = Server::with(&["--connection-limit", "2"]);
     let mut inside = [connect(server.address()), connect(server.address())];

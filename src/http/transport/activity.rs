@@ -32,6 +32,8 @@ pub(super) struct Activity {
     let_go: AtomicBool,
     /// A request was answered before all of it was read.
     unread: AtomicBool,
+    /// The client has ended its side.
+    left: AtomicBool,
 }
 
 impl Activity {
@@ -45,6 +47,7 @@ impl Activity {
             head_begun: AtomicBool::new(false),
             let_go: AtomicBool::new(false),
             unread: AtomicBool::new(false),
+            left: AtomicBool::new(false),
         })
     }
 
@@ -66,6 +69,11 @@ impl Activity {
         if self.in_flight.load(Ordering::Relaxed) == 0 {
             self.head_begun.store(true, Ordering::Relaxed);
         }
+    }
+
+    /// The client sends no more.
+    pub(super) fn leave(&self) {
+        self.left.store(true, Ordering::Relaxed);
     }
 
     /// Bytes moved on the socket.
@@ -107,9 +115,11 @@ impl Activity {
         self.unread.load(Ordering::Relaxed)
     }
 
-    /// Whether a read that finds no bytes is the end: nothing is under way, and nothing waits to be sent.
+    /// Whether a read that finds no bytes is the end: nothing is under way, and nothing waits to be sent. Not where
+    /// the client itself made an end.
     pub(super) fn is_over(&self) -> bool {
         self.let_go.load(Ordering::Relaxed)
+            && !self.left.load(Ordering::Relaxed)
             && self.is_idle()
             && !self.head_begun()
             && self.blocked_since().is_none()
@@ -174,6 +184,8 @@ mod tests {
         assert!(!activity.is_over(), "its answer is not sent");
         activity.sent();
         assert!(activity.is_over());
+        activity.leave();
+        assert!(!activity.is_over(), "the client left by itself");
     }
 
     #[test]

@@ -159,6 +159,8 @@ impl AsyncRead for Stream {
             }
         } else if buffer.filled().len() > before {
             self.activity.read();
+        } else if buffer.remaining() > 0 {
+            self.activity.leave();
         }
         result
     }
