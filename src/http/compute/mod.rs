@@ -6,6 +6,9 @@ pub(crate) mod pool;
 
 use super::edge::Deadline;
 use super::problem::{Kind, Problem};
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::sync::{Semaphore, SemaphorePermit};
 
 /// Directions that are evaluated without a change of thread, which costs as much as dozens of them.
@@ -54,14 +57,39 @@ pub(super) async fn turn(
     }
 }
 
+thread_local! {
+    /// Whether anybody waits for what the calling thread does in [`blocking`].
+    static ABANDONED: RefCell<Arc<AtomicBool>> = RefCell::default();
+}
+
+/// Whether nobody waits any more for the work that the calling thread does: for loops that take long.
+pub(super) fn is_abandoned() -> bool {
+    ABANDONED.with_borrow(|abandoned| abandoned.load(Ordering::Relaxed))
+}
+
+/// Says so when it is dropped.
+struct Abandon(Arc<AtomicBool>);
+
+impl Drop for Abandon {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
 /// Does work on a thread of its own. Work that was still waiting for one at the deadline is never begun.
 pub(super) async fn blocking<T: Send + 'static>(
     deadline: Deadline,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Problem> {
+    let waiting = Abandon(Arc::default());
+    let abandoned = Arc::clone(&waiting.0);
     let work = move || {
         pool::lower_priority();
-        (!passed(deadline)).then(work)
+        let is_wanted = !passed(deadline) && !abandoned.load(Ordering::Relaxed);
+        ABANDONED.set(abandoned);
+        let done = is_wanted.then(work);
+        ABANDONED.set(Arc::default());
+        done
     };
     match tokio::time::timeout_at(deadline.at, tokio::task::spawn_blocking(work)).await {
         Ok(Ok(Some(value))) => Ok(value),

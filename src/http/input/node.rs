@@ -1,5 +1,6 @@
 //! JSON as a tree, arrays of numbers packed.
 
+use crate::http::compute::is_abandoned;
 use crate::reflectance::bounds;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
@@ -69,9 +70,11 @@ pub(crate) struct Malformed {
     pub(crate) detail: String,
 }
 
-/// Values that are not numbers in an array, in one body: no request needs more than a few dozen, and each
-/// costs fifty times its bytes.
+/// Values that are not numbers in an array, in one body: a request needs a few dozen; each costs fifty times its bytes.
 const MOST_NODES: usize = 4096;
+
+/// Elements of an array between two looks at whether anybody still waits.
+const BETWEEN_LOOKS: usize = 4096;
 
 /// Reads JSON. A number beyond f64 (1e400) arrives as the string of its digits, so that it is reported as
 /// the error of a field like any other.
@@ -238,6 +241,9 @@ impl<'de> Visitor<'de> for Seed<'_> {
                 });
             }
             array.length += 1;
+            if array.length.is_multiple_of(BETWEEN_LOOKS) && is_abandoned() {
+                return Err(serde::de::Error::custom("nobody waits for it"));
+            }
         }
         Ok(Node::Array(array))
     }
