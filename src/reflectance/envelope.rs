@@ -10,7 +10,7 @@ use super::numeric::lobe_series::between;
 use super::quantity::Wavelength;
 use super::region::{Region, Span};
 use super::scene::{Component, Model, Scene};
-use super::shadowing::Shadowing;
+use super::shadowing::{ShadowingFunction, Smith};
 use super::unified;
 use super::view::View;
 use core::f64::consts::{FRAC_PI_4, LN_2, PI};
@@ -27,7 +27,7 @@ const STEEPEST: f64 = 1.5;
 /// What the bounds need of a scene.
 pub(super) struct Envelopes {
     model: Model,
-    shadowing: Shadowing,
+    shadowing: ShadowingFunction,
     diffuse_albedo: f64,
     medium: Medium,
     polarization: Polarization,
@@ -50,7 +50,7 @@ impl Envelopes {
         let diffuse = components.contains(&Component::DiffuseLobe);
         Self {
             model: p.model,
-            shadowing: scene.shadowing(),
+            shadowing: scene.shadowing_function(),
             diffuse_albedo: surface.diffuse_albedo.get(),
             medium: surface.medium,
             polarization: p.illumination.polarization,
@@ -96,8 +96,9 @@ impl Envelopes {
         let &Region { cos_i, cos_r, .. } = region;
         let open = Span { least: 1.0 / cos_r.most, most: 1.0 / cos_r.least };
         let span = match self.shadowing {
-            Shadowing::None => open,
-            Shadowing::VGroove => {
+            ShadowingFunction::None => open,
+            ShadowingFunction::Smith(smith) => smith_over_cos_r(smith, region),
+            ShadowingFunction::VGroove => {
                 let groove = region.groove();
                 Span {
                     least: open.least.min(groove.least * (cos_i.least / cos_r.most).min(1.0)),
@@ -172,6 +173,31 @@ impl Envelopes {
             shape,
             self.reflectance(region),
         ])
+    }
+}
+
+/// Smith's G/cos θ_r over a region: cos θ_i/(cos θ_r A_i + cos θ_i A_r) with A = (½ + Λ) cos θ, or over B_i B_r with
+/// B = (1 + Λ) cos θ.
+fn smith_over_cos_r(smith: Smith, region: &Region) -> Span {
+    let (cos_i, cos_r) = (region.cos_i, region.cos_r);
+    // 0/0 stands in the corner where both directions are grazing, where nothing is known.
+    let over = |near: f64, far: f64| if near == 0.0 { 0.0 } else { near / far };
+    let hidden_i = smith.hidden(region.sin_i, cos_i);
+    let hidden_r = smith.hidden(region.sin_r, cos_r);
+    if smith.is_correlated() {
+        // Of the divisor over cos θ_i: ½ cos θ_r + hidden_r, and cos θ_r times ½ + Λ_i.
+        let lambda_i = Span { least: over(hidden_i.least, cos_i.most), most: hidden_i.most / cos_i.least };
+        let of_source = |cos_r: f64, lambda_i: f64| if cos_r == 0.0 { 0.0 } else { cos_r * (0.5 + lambda_i) };
+        Span {
+            least: 1.0 / (of_source(cos_r.most, lambda_i.most) + 0.5 * cos_r.most + hidden_r.most),
+            most: 1.0 / (of_source(cos_r.least, lambda_i.least) + 0.5 * cos_r.least + hidden_r.least),
+        }
+    } else {
+        let visible = |cos: f64, hidden: f64| over(cos, cos + hidden);
+        Span {
+            least: visible(cos_i.least, hidden_i.most) / (cos_r.most + hidden_r.most),
+            most: visible(cos_i.most, hidden_i.least) / (cos_r.least + hidden_r.least),
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
 use super::quantity::Wavelength;
 use super::scene::{Component, FacetParameters, Model, Scene};
-use super::shadowing::Shadowing;
+use super::shadowing::ShadowingFunction;
 use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
@@ -123,7 +123,7 @@ pub(super) struct Kernel<'a> {
     irradiance: f64,
     medium: Medium,
     polarization: Polarization,
-    shadowing: Shadowing,
+    shadowing: ShadowingFunction,
     roughness: Option<RelativeRoughness>,
     view: Option<View>,
     facets: Option<FacetLobe>,
@@ -139,7 +139,7 @@ impl<'a> Kernel<'a> {
     pub(super) fn new(scene: &'a Scene, quantity: Quantity, omitted_share: f64) -> Self {
         let p = scene.parameters();
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
-        let shadowing = scene.shadowing();
+        let shadowing = scene.shadowing_function();
         Self {
             scene,
             quantity,
@@ -240,7 +240,7 @@ impl<'a> Kernel<'a> {
                             None => roughness.lobe(geometry, over, self.method),
                         };
                         evaluated_by = EvaluatedBy::Lobe(method);
-                        self.with_reflectance(lobe, reflectance)
+                        self.with_reflectance(self.with_shadowing_error(lobe), reflectance)
                     })
                 }
                 Component::SpecularLobe => self.facet_lobe(geometry, reflectance),
@@ -285,9 +285,13 @@ impl<'a> Kernel<'a> {
         }
         let g = unified::mirror_g(self.roughness?.height, 1.0, geometry.cos_i);
         let share = unified::lobe_share(g);
+        if share == 0.0 && matches!(self.shadowing, ShadowingFunction::Smith(_)) {
+            // At grazing 1 − e^{-g} goes with cos² θ_i, and Smith's G over both cosines not with more than 1/cos θ_i.
+            return Some(Estimate::ZERO);
+        }
         let (over_cosines, share) = match (self.quantity, self.shadowing) {
             // Nothing else makes up for the 1/cos θ_i of a BRDF: 1 − e^{-g} goes with cos² θ_i.
-            (Quantity::Brdf, Shadowing::None) => (
+            (Quantity::Brdf, ShadowingFunction::None) => (
                 self.shadowing.factor_over_cos_r(geometry),
                 if geometry.cos_i == 0.0 {
                     Scaled::ZERO
@@ -325,6 +329,14 @@ impl<'a> Kernel<'a> {
                 reflected.scaled_by(Scaled::new(self.irradiance))
             }
             Quantity::Brdf => reflected,
+        }
+    }
+
+    /// What Smith's G has more of an error than [`RelativeRoughness::lobe`] allows it.
+    fn with_shadowing_error(&self, lobe: Estimate) -> Estimate {
+        match self.shadowing {
+            ShadowingFunction::None | ShadowingFunction::VGroove => lobe,
+            ShadowingFunction::Smith(_) => lobe.widened(EPSILON * self.shadowing.units()),
         }
     }
 

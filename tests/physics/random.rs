@@ -90,7 +90,7 @@ pub(crate) fn scene(random: &mut Random) -> SceneParameters {
             diffuse_albedo: Fraction::new(albedo).unwrap(),
             specular_scale: (random.index(5) == 0)
                 .then(|| SpecularScale::new(random.power(-6.0, 3.0)).unwrap()),
-            shadowing: [None, Some(Shadowing::None), Some(Shadowing::VGroove)][random.index(3)],
+            shadowing: [None, Some(Shadowing::None), Some(Shadowing::VGroove), Some(Shadowing::Smith)][random.index(4)],
         },
         illumination: Illumination {
             wavelength: Some(in_range(wavelength)),

@@ -23,6 +23,7 @@ named! {
     Model, "a model", Model::ALL;
     Component, "a component", Component::ALL;
     Method, "a method", Method::ALL;
+    Shadowing, "a shadowing", Shadowing::ALL;
 }
 
 /// One angle for all directions or one for each, as far as it could be read.
@@ -365,31 +366,6 @@ impl Wire for Polarization {
         let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(MixWire::query_parameters(false));
         parameters
-    }
-}
-
-/// The shadowings that this version offers.
-const SHADOWINGS: [Shadowing; 2] = [Shadowing::None, Shadowing::VGroove];
-
-impl super::wire::Named for Shadowing {
-    const WHAT: &'static str = "a shadowing";
-    const ALL: &'static [Self] = &SHADOWINGS;
-    fn wire_name(self) -> &'static str {
-        self.name()
-    }
-}
-
-impl Wire for Shadowing {
-    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        if node == Node::Text("smith".to_owned()) {
-            return reader
-                .fail(Code::NotOffered, "\"smith\" is not offered yet: expected one of none, v_groove");
-        }
-        read_named(&node, reader)
-    }
-
-    fn schema() -> RefOr<Schema> {
-        named_schema::<Self>()
     }
 }
 

@@ -10,7 +10,7 @@ use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::elementary::{binary_exponent, scale};
 use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES, Lanes};
 use crate::reflectance::numeric::lobe_series::{LobeSeries, Method, ROUNDING_UNITS};
-use crate::reflectance::shadowing::Shadowing;
+use crate::reflectance::shadowing::ShadowingFunction;
 use crate::reflectance::shadowing::lanes::{Cosines, over_cosines};
 use core::f64::consts::PI;
 
@@ -22,7 +22,7 @@ pub(in crate::reflectance) struct Common {
     pub(in crate::reflectance) polarization: Polarization,
     /// What multiplies the lobe: the irradiance for a radiance, 1 for a BRDF.
     pub(in crate::reflectance) strength: f64,
-    pub(in crate::reflectance) shadowing: Shadowing,
+    pub(in crate::reflectance) shadowing: ShadowingFunction,
     pub(in crate::reflectance) cosines: Cosines,
 }
 
@@ -137,6 +137,7 @@ vectorized! {
 
 #[inline(always)]
 fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes) {
+    let prefactor = ROUNDING_UNITS + PREFACTOR_UNITS + common.shadowing.units();
     for lane in 0..count.min(LANES) {
         let (cos_sum, horizontal) = (geometries.cos_sum[lane], geometries.horizontal[lane]);
         let length_squared = cos_sum * cos_sum + horizontal * horizontal;
@@ -146,7 +147,7 @@ fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: 
         let (significand, exponent) = (factor * lobe.series.significand[lane], lobe.series.exponent[lane]);
         let (condition_g, condition_x) = (lobe.series.condition_g[lane], lobe.series.condition_x[lane]);
         let rounding = EPSILON
-            * ((ROUNDING_UNITS + PREFACTOR_UNITS)
+            * (prefactor
                 + (ROUNDING_UNITS + G_UNITS) * condition_g
                 + (ROUNDING_UNITS + X_UNITS) * condition_x)
             + lobe.reflectance.distance[lane];

@@ -76,11 +76,11 @@ fn scene(random: &mut Random) -> Scene {
         surface: Surface {
             rms_height: Some(in_range(height)),
             correlation_length: Some(in_range(height * 10f64.powf(random.between(0.0, 3.0)))),
-            facet_slope: (random.unit() < 0.5).then(|| in_range(10f64.powf(random.between(-3.0, 2.0)))),
+            facet_slope: (random.unit() < 0.5).then(|| in_range(10f64.powf(random.between(-3.0, 1.8)))),
             medium: medium(random),
             diffuse_albedo: in_range(random.one_of(&[0.0, 1.0]) * 10f64.powf(random.between(-30.0, 0.0))),
             specular_scale: random.one_of(&[None, None, Some(in_range(0.0)), Some(in_range(7.0))]),
-            shadowing: random.one_of(&[Some(Shadowing::None), Some(Shadowing::VGroove)]),
+            shadowing: Some(random.one_of(&Shadowing::ALL)),
         },
         illumination: Illumination {
             wavelength: Some(in_range(1.0)),

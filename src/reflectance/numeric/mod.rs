@@ -2,6 +2,7 @@
 
 pub mod dispatch;
 pub mod elementary;
+pub mod erfc_integral;
 pub mod lobe_series;
 pub mod quadrature;
 pub mod scaled;

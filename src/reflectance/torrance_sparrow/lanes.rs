@@ -8,7 +8,7 @@ use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::elementary::{angle, binary_exponent, exp, scale};
 use crate::reflectance::numeric::lobe_series::lanes::{LANES, Lanes};
-use crate::reflectance::shadowing::Shadowing;
+use crate::reflectance::shadowing::ShadowingFunction;
 use crate::reflectance::shadowing::lanes::{Cosines, over_cosines};
 use crate::reflectance::unified::{lobe_share, mirror_g};
 
@@ -31,7 +31,7 @@ pub(in crate::reflectance) struct Facets {
     pub(in crate::reflectance) strength: f64,
     pub(in crate::reflectance) medium: Medium,
     pub(in crate::reflectance) polarization: Polarization,
-    pub(in crate::reflectance) shadowing: Shadowing,
+    pub(in crate::reflectance) shadowing: ShadowingFunction,
     /// σ_h/λ of a surface whose spike has e^{−g} of the energy and the lobe the rest.
     pub(in crate::reflectance) height: Option<f64>,
 }
@@ -122,7 +122,8 @@ vectorized! {
 
 #[inline(always)]
 fn lobe_and_distance(facets: Facets, geometries: &Geometries, count: usize, lanes: &mut FacetLanes) {
-    let share_units = if facets.height.is_some() { SHARE_UNITS } else { 0.0 };
+    let share = if facets.height.is_some() { SHARE_UNITS } else { 0.0 };
+    let factor_units = FACTOR_UNITS + share + facets.shadowing.units();
     for lane in 0..count.min(LANES) {
         let ratio = angle(geometries.cos_sum[lane], geometries.horizontal[lane]) / facets.sigma_alpha;
         let square = (ratio * ratio).min(DARK);
@@ -130,7 +131,7 @@ fn lobe_and_distance(facets: Facets, geometries: &Geometries, count: usize, lane
         let factor = lanes.over_cosines[lane] * facets.strength * lanes.reflectance.value[lane];
         let significand = factor * gaussian.significand;
         let size = binary_exponent(significand) + gaussian.exponent;
-        let distance = EPSILON * (SQUARE_UNITS * square + (FACTOR_UNITS + share_units))
+        let distance = EPSILON * (SQUARE_UNITS * square + factor_units)
             + lanes.reflectance.distance[lane];
         // Nothing was lost on the way to numbers that are normal.
         let ordinary = (1e-290..1e290).contains(&factor) && distance < 0.5 && size < 1023.0;
