@@ -5,7 +5,9 @@
 //! compared: F′ of (41) and (71) is the same number for spike and lobe.
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
-use super::fresnel::{Medium, Polarization};
+use super::degrees::SinCos;
+use super::fresnel::{Energy, Medium, Polarization};
+use super::fresnel_average::FresnelAverage;
 use super::numeric::lobe_series::between;
 use super::quantity::Wavelength;
 use super::region::{Region, Span};
@@ -31,6 +33,8 @@ pub(super) struct Envelopes {
     diffuse_albedo: f64,
     medium: Medium,
     polarization: Polarization,
+    /// Over what F of the lobe is averaged; the spike has the mean plane's.
+    average: FresnelAverage,
     /// F′ is common to the components compared, or 1.
     without_fresnel: bool,
     roughness: Option<RelativeRoughness>,
@@ -47,14 +51,19 @@ impl Envelopes {
         let p = scene.parameters();
         let surface = &p.surface;
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
-        let diffuse = components.contains(&Component::DiffuseLobe);
+        let has = |component| components.contains(&component);
+        let average = scene.fresnel_average();
+        let is_common = !has(Component::DiffuseLobe)
+            && (average == FresnelAverage::MeanPlane
+                || !(has(Component::SpecularLobe) && has(Component::SpecularSpike)));
         Self {
             model: p.model,
             shadowing: scene.shadowing_function(),
             diffuse_albedo: surface.diffuse_albedo.get(),
             medium: surface.medium,
             polarization: p.illumination.polarization,
-            without_fresnel: !diffuse || surface.medium == Medium::PerfectConductor,
+            average,
+            without_fresnel: is_common || surface.medium == Medium::PerfectConductor,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
             facets: scene.facets.map(|facets| (facets.sigma_alpha, libm::log(facets.scale) - 2.0 * LN_2)),
@@ -80,15 +89,52 @@ impl Envelopes {
         if bounds.least.is_nan() || bounds.most.is_nan() { UNKNOWN } else { bounds }
     }
 
-    /// ln F′: of one direction its value, of many only that it is not above 1.
-    fn reflectance(&self, region: &Region) -> Span {
+    /// ln F′ of the lobe: of one direction its value if it is that of one angle.
+    fn lobe_reflectance(&self, region: &Region) -> Span {
         if self.without_fresnel {
             return constant(0.0);
         }
-        let Some(geometry) = region.direction else { return Span { most: 0.0, ..UNKNOWN } };
-        let energy = self.medium.reflectance(geometry.local_incidence(), self.polarization);
+        match (self.average, region.direction) {
+            (FresnelAverage::HalfVector, Some(geometry)) => self.reflectance_at(geometry.local_incidence()),
+            (FresnelAverage::HalfVector, None) => self.reflectance_between(region.cos_local()),
+            (FresnelAverage::MeanPlane, _) => self.mean_plane(region),
+            (FresnelAverage::SlopeAverage, _) => self.reflectance_between(Span { least: 0.0, most: 1.0 }),
+        }
+    }
+
+    /// ln F′ of the mean plane.
+    fn mean_plane(&self, region: &Region) -> Span {
+        let Region { sin_i, cos_i, .. } = region;
+        if self.without_fresnel {
+            constant(0.0)
+        } else if cos_i.least.to_bits() == cos_i.most.to_bits() && sin_i.least == sin_i.most {
+            self.reflectance_at(SinCos { sin: sin_i.least, cos: cos_i.least })
+        } else {
+            self.reflectance_between(*cos_i)
+        }
+    }
+
+    /// ln F′ at one angle of incidence.
+    fn reflectance_at(&self, incidence: SinCos) -> Span {
+        let energy = self.medium.reflectance(incidence, self.polarization);
         let (least, most) = ((energy.value - energy.error).max(0.0), (energy.value + energy.error).min(1.0));
         Span { least, most }.ln()
+    }
+
+    /// ln F′ between two cosines of incidence, and of any mean between them. F′_perp falls with the cosine,
+    /// d ln F′_perp/d cos θ = −4 Re(1/√(Y² − sin²θ)), and F′_para is not above it: their fields' ratio is that of
+    /// √(Y² − sin²θ) cos θ ∓ sin²θ.
+    fn reflectance_between(&self, cos: Span) -> Span {
+        let perpendicular = |cos: f64, slack: f64| {
+            let cos = (cos - slack).clamp(0.0, 1.0);
+            let sin = ((1.0 - cos) * (1.0 + cos) + slack).clamp(0.0, 1.0).sqrt();
+            self.medium.energies(SinCos { sin, cos }).perpendicular
+        };
+        // The cosines are rounded.
+        let slack = 1e-15;
+        let (near, far) = (perpendicular(cos.most, -slack), perpendicular(cos.least, slack));
+        let least = |energy: Energy| (energy.value - energy.error).max(0.0);
+        Span { least: self.polarization.v() * least(near), most: (far.value + far.error).min(1.0) }.ln()
     }
 
     /// ln(G/cos θ_r)
@@ -119,7 +165,7 @@ impl Envelopes {
             Span { least: 2.0 * facet.least, most: 2.0 * facet.most },
             self.shadowing_over_cos_r(region),
             lobe_series(roughness, region),
-            self.reflectance(region),
+            self.lobe_reflectance(region),
         ])
     }
 
@@ -144,7 +190,7 @@ impl Envelopes {
             Span { least: exponent(alpha.most), most: exponent(alpha.least) },
             self.shadowing_over_cos_r(region),
             share,
-            self.reflectance(region),
+            self.lobe_reflectance(region),
         ])
     }
 
@@ -171,7 +217,7 @@ impl Envelopes {
             Span { least: 2.0 * cos_i.least, most: 2.0 * cos_i.most },
             Span { least: -2.0 * cos_r.most, most: -2.0 * cos_r.least },
             shape,
-            self.reflectance(region),
+            self.mean_plane(region),
         ])
     }
 }

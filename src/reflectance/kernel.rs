@@ -5,7 +5,9 @@ mod in_lanes;
 
 use super::beckmann_spizzichino::RelativeRoughness;
 use super::estimate::Estimate;
-use super::fresnel::{Medium, Polarization};
+use super::fresnel::Medium;
+use super::fresnel_average::mean_plane;
+use super::fresnel_average::table::{Reflectivity, SlopeAverages};
 use super::geometry::Geometry;
 use super::lambertian;
 use super::numeric::EPSILON;
@@ -121,8 +123,8 @@ pub(super) struct Kernel<'a> {
     scene: &'a Scene,
     quantity: Quantity,
     irradiance: f64,
-    medium: Medium,
-    polarization: Polarization,
+    /// Of the lobe; the spike has the mean plane's.
+    reflectivity: Reflectivity<'a>,
     shadowing: ShadowingFunction,
     roughness: Option<RelativeRoughness>,
     view: Option<View>,
@@ -135,8 +137,14 @@ pub(super) struct Kernel<'a> {
 }
 
 impl<'a> Kernel<'a> {
-    /// The scene is evaluated in its components; `omitted_share` bounds what the others would add, relative.
-    pub(super) fn new(scene: &'a Scene, quantity: Quantity, omitted_share: f64) -> Self {
+    /// The scene is evaluated in its components; `omitted_share` bounds what the others would add, relative, and `averages` are
+    /// those of its sources.
+    pub(super) fn new(
+        scene: &'a Scene,
+        quantity: Quantity,
+        omitted_share: f64,
+        averages: &'a SlopeAverages,
+    ) -> Self {
         let p = scene.parameters();
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
         let shadowing = scene.shadowing_function();
@@ -144,8 +152,7 @@ impl<'a> Kernel<'a> {
             scene,
             quantity,
             irradiance: p.illumination.irradiance.get(),
-            medium: p.surface.medium,
-            polarization: p.illumination.polarization,
+            reflectivity: Reflectivity::of(scene, averages),
             shadowing,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
@@ -223,11 +230,9 @@ impl<'a> Kernel<'a> {
     fn reflect_by(&self, geometry: &Geometry, series: Option<&LobeSeries>) -> Reflection {
         let mut components = [None; 3];
         let mut evaluated_by = EvaluatedBy::ClosedForm;
-        let reflectance = match self.medium {
+        let of_lobe = || match self.reflectivity.medium {
             Medium::PerfectConductor => None,
-            Medium::Index(_) => {
-                Some(self.medium.reflectance(geometry.local_incidence(), self.polarization).into())
-            }
+            Medium::Index(_) => Some(self.reflectivity.energy(geometry).into()),
         };
         for &component in self.scene.evaluated() {
             let value = match component {
@@ -240,11 +245,11 @@ impl<'a> Kernel<'a> {
                             None => roughness.lobe(geometry, over, self.method),
                         };
                         evaluated_by = EvaluatedBy::Lobe(method);
-                        self.with_reflectance(self.with_shadowing_error(lobe), reflectance)
+                        self.with_reflectance(self.with_shadowing_error(lobe), of_lobe())
                     })
                 }
-                Component::SpecularLobe => self.facet_lobe(geometry, reflectance),
-                Component::SpecularSpike => self.spike(geometry, reflectance),
+                Component::SpecularLobe => self.facet_lobe(geometry, of_lobe()),
+                Component::SpecularSpike => self.spike(geometry),
             };
             components[component.index()] = match self.quantity {
                 Quantity::ImageIrradiance { factor } => {
@@ -306,8 +311,14 @@ impl<'a> Kernel<'a> {
         Some(self.with_reflectance(lobe, reflectance))
     }
 
-    /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.
-    fn spike(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
+    /// The spike of (47), with F′ at θ_i: it is what the mean plane reflects. Its BRDF divides by cos θ_i, which cancels one
+    /// of the two it carries.
+    fn spike(&self, geometry: &Geometry) -> Option<Estimate> {
+        let Reflectivity { medium, polarization, .. } = self.reflectivity;
+        let reflectance = match medium {
+            Medium::PerfectConductor => None,
+            Medium::Index(_) => Some(mean_plane(&medium, polarization, geometry).into()),
+        };
         let patch = self.view?.patch(geometry.cos_r);
         let power = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => geometry.cos_i * geometry.cos_i,
@@ -316,7 +327,7 @@ impl<'a> Kernel<'a> {
         Some(self.with_reflectance(self.roughness?.spike(geometry, power, &patch), reflectance))
     }
 
-    /// (41) and (71): F′ at the half vector; and the irradiance where a radiance is asked for.
+    /// (41) and (71): F′; and the irradiance where a radiance is asked for.
     fn with_reflectance(&self, lobe: Estimate, reflectance: Option<Estimate>) -> Estimate {
         let reflected = match reflectance {
             None => lobe,

@@ -111,6 +111,12 @@ impl Region {
         self.cos_sum.squared().plus(self.horizontal.squared())
     }
 
+    /// cos θ′
+    pub(super) fn cos_local(&self) -> Span {
+        let square = self.length_squared();
+        Span::new(0.5 * square.least.sqrt(), (0.5 * square.most.sqrt()).min(1.0))
+    }
+
     /// q (1 + tan² α) of [`Geometry::facet_factor`]; q must not be 0.
     pub(super) fn facet_factor(&self) -> Span {
         let square = self.length_squared();

@@ -4,6 +4,7 @@
 use super::beckmann_spizzichino::RelativeRoughness;
 use super::degrees::SinCos;
 use super::fresnel::{Medium, Polarization};
+use super::fresnel_average::FresnelAverage;
 use super::numeric::lobe_series::Method;
 use super::outline::{Outline, SceneError};
 use super::quantity::{
@@ -35,6 +36,8 @@ pub struct Surface {
     pub specular_scale: Option<SpecularScale>,
     /// When absent: none for Beckmann-Spizzichino, V-groove for Torrance-Sparrow.
     pub shadowing: Option<Shadowing>,
+    /// Over what F of the lobe is averaged; the half vector when absent.
+    pub fresnel_average: Option<FresnelAverage>,
 }
 
 impl Surface {
@@ -255,6 +258,11 @@ impl Scene {
             ("surface.facet_slope_deg", p.surface.facet_slope.is_some() && !facet_lobe),
             ("surface.specular_scale", p.surface.specular_scale.is_some() && !facet_lobe),
             ("surface.shadowing", p.surface.shadowing.is_some_and(|given| given != Shadowing::None) && !lobe),
+            (
+                "surface.fresnel_average",
+                p.surface.fresnel_average.is_some_and(|given| given != FresnelAverage::HalfVector)
+                    && (!lobe || p.surface.medium == Medium::PerfectConductor),
+            ),
             ("accuracy.method", p.accuracy.method != Method::Auto && !height_lobe),
         ]
         .into_iter()
@@ -279,6 +287,11 @@ impl Scene {
             Model::BeckmannSpizzichino | Model::Lambertian => Shadowing::None,
             Model::TorranceSparrow | Model::Unified => Shadowing::VGroove,
         })
+    }
+
+    /// Over what F of the lobe is averaged: the caller's choice, or the half vector.
+    pub fn fresnel_average(&self) -> FresnelAverage {
+        self.parameters.surface.fresnel_average.unwrap_or(FresnelAverage::HalfVector)
     }
 
     /// Beckmann's m of the facets of the lobe.

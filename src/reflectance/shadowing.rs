@@ -47,7 +47,9 @@ impl Shadowing {
             Self::None => Some(ShadowingFunction::None),
             Self::VGroove => Some(ShadowingFunction::VGroove),
             Self::Smith => slope.map(|slope| ShadowingFunction::Smith(Smith::correlated(slope))),
-            Self::SmithUncorrelated => slope.map(|slope| ShadowingFunction::Smith(Smith::uncorrelated(slope))),
+            Self::SmithUncorrelated => {
+                slope.map(|slope| ShadowingFunction::Smith(Smith::uncorrelated(slope)))
+            }
         }
     }
 }

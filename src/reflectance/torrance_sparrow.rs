@@ -172,7 +172,8 @@ mod tests {
     #[test]
     fn the_logarithm_survives_where_the_value_does_not() {
         // α = 30° and σ = 1e-4°: exponent −(3e5)²/2, and 1/cos 60° = 2.
-        let radiance = lobe(1e-4f64.to_radians(), ShadowingFunction::None).radiance(&geometry(0.0, 60.0), 1.0);
+        let radiance =
+            lobe(1e-4f64.to_radians(), ShadowingFunction::None).radiance(&geometry(0.0, 60.0), 1.0);
         assert_eq!(radiance.value.to_f64(), 0.0);
         let ln = radiance.value.ln();
         let exact = -4.5e10 + 2f64.ln();

@@ -48,7 +48,11 @@ fn check(line: &Line<'_>) {
     line.scaled("L_spec", radiance(lobe), cint_lobe);
     line.scaled("L_spec_noF", radiance(no_f), cint_gauss);
     line.scaled("L_spec_noG", radiance(FacetLobe { shadowing: ShadowingFunction::None, ..lobe }), cint_lobe);
-    line.scaled("L_spec_noFG", radiance(FacetLobe { shadowing: ShadowingFunction::None, ..no_f }), cint_gauss);
+    line.scaled(
+        "L_spec_noFG",
+        radiance(FacetLobe { shadowing: ShadowingFunction::None, ..no_f }),
+        cint_gauss,
+    );
 
     // (57) with κ_diff itself, which the oracle does not bind to an albedo.
     let cos_i = geometry.cos_i.max(0.0);

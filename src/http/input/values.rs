@@ -11,6 +11,7 @@ use crate::http::problem::Code;
 use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
 use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
+use crate::reflectance::fresnel_average::FresnelAverage;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::Listed;
 use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
@@ -24,6 +25,7 @@ named! {
     Component, "a component", Component::ALL;
     Method, "a method", Method::ALL;
     Shadowing, "a shadowing", Shadowing::ALL;
+    FresnelAverage, "an average of F", FresnelAverage::ALL;
 }
 
 /// One angle for all directions or one for each, as far as it could be read.

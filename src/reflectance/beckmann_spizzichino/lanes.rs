@@ -3,7 +3,7 @@
 
 use super::{G_UNITS, PREFACTOR_UNITS, RelativeRoughness, X_UNITS};
 use crate::reflectance::fresnel::lanes::ReflectanceLanes;
-use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::fresnel_average::table::Reflectivity;
 use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
@@ -16,10 +16,9 @@ use core::f64::consts::PI;
 
 /// What the directions of a block have in common.
 #[derive(Clone, Copy)]
-pub(in crate::reflectance) struct Common {
+pub(in crate::reflectance) struct Common<'a> {
     pub(in crate::reflectance) roughness: RelativeRoughness,
-    pub(in crate::reflectance) medium: Medium,
-    pub(in crate::reflectance) polarization: Polarization,
+    pub(in crate::reflectance) reflectivity: Reflectivity<'a>,
     /// What multiplies the lobe: the irradiance for a radiance, 1 for a BRDF.
     pub(in crate::reflectance) strength: f64,
     pub(in crate::reflectance) shadowing: ShadowingFunction,
@@ -96,11 +95,11 @@ impl LobeLanes {
     pub(in crate::reflectance) fn combine(
         &mut self,
         set: InstructionSet,
-        common: Common,
+        common: Common<'_>,
         geometries: &Geometries,
         count: usize,
     ) {
-        self.reflectance.fill(set, common.medium, common.polarization, geometries, count);
+        self.reflectance.fill(set, common.reflectivity, geometries, count);
         over_cosines(set, common.shadowing, common.cosines, geometries, count, &mut self.over_cosines);
         combined(set, common, geometries, count, self);
     }
@@ -132,11 +131,11 @@ fn g_and_x(roughness: RelativeRoughness, geometries: &Geometries, g: &mut [f64],
 }
 
 vectorized! {
-    fn combined = value_and_bound, (common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes)
+    fn combined = value_and_bound, (common: Common<'_>, geometries: &Geometries, count: usize, lobe: &mut LobeLanes)
 }
 
 #[inline(always)]
-fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes) {
+fn value_and_bound(common: Common<'_>, geometries: &Geometries, count: usize, lobe: &mut LobeLanes) {
     let prefactor = ROUNDING_UNITS + PREFACTOR_UNITS + common.shadowing.units();
     for lane in 0..count.min(LANES) {
         let (cos_sum, horizontal) = (geometries.cos_sum[lane], geometries.horizontal[lane]);

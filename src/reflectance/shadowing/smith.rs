@@ -41,10 +41,7 @@ impl Smith {
 
     /// Λ cos θ between the ends of a zenith: it grows with it.
     pub(in crate::reflectance) fn hidden(self, sin: Span, cos: Span) -> Span {
-        Span {
-            least: hidden(sin.least, cos.most, self.width),
-            most: hidden(sin.most, cos.least, self.width),
-        }
+        Span { least: hidden(sin.least, cos.most, self.width), most: hidden(sin.most, cos.least, self.width) }
     }
 
     /// How much larger its relative error is than that of the others, in ε, for an m that is known to 8 ε.
@@ -60,8 +57,7 @@ impl Smith {
     #[inline(always)]
     pub(super) fn over_cosines(self, geometry: &Geometry) -> f64 {
         let &Geometry { cos_i, sin_i, cos_r, sin_r, .. } = geometry;
-        let (hidden_i, hidden_r) =
-            (hidden(sin_i, cos_i, self.width), hidden(sin_r, cos_r, self.width));
+        let (hidden_i, hidden_r) = (hidden(sin_i, cos_i, self.width), hidden(sin_r, cos_r, self.width));
         // (½ + Λ_i) cos θ_i cos θ_r and the same of the viewer add up to 1 + Λ_i + Λ_r.
         let correlated = cos_r * (0.5 * cos_i + hidden_i) + cos_i * (0.5 * cos_r + hidden_r);
         let uncorrelated = (cos_i + hidden_i) * (cos_r + hidden_r);
