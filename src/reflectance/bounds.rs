@@ -94,7 +94,7 @@ pub const FACET_SLOPE_AVERAGED: Bounds =
     Bounds::new("facet slope that F′ is averaged over", "degrees", 1e-12, 58.6);
 /// Sources' zeniths, over all curves of a diagram, for which one request averages F′ over the slopes: each takes about a
 /// millisecond.
-pub const MAX_AVERAGED: usize = 1000;
+pub const MAX_AVERAGED: usize = 500;
 /// Ends of a sweep; a negative zenith lies on the other side of the normal.
 pub const SWEEP_ANGLE: Bounds = Bounds::new("swept zenith angle", "degrees", -90.0, 90.0);
 /// Step of a sweep.

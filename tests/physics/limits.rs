@@ -9,7 +9,6 @@ use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::quantity::{
     BeckmannAlpha, CorrelationLength, IndexK, IndexN, InvertibleFacetSlope, Quantity, RmsHeight,
 };
-use reflectance::reflectance::roughness::Widths;
 use reflectance::reflectance::roughness::{Widths, facet_slope_radians, height_to_length_ratio};
 use reflectance::reflectance::shadowing::{Shadowing, ShadowingFunction};
 use reflectance::reflectance::surface::facet_density;

@@ -5,6 +5,7 @@ use crate::reflectance::fresnel::{Energy, Medium, Polarization, RefractiveIndex}
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::quadrature::{Integral, integrate_to};
 use crate::reflectance::quantity::AveragedRatio;
+use core::cell::Cell;
 use core::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 /// The mean of F′ over the slopes of a Gaussian surface, and the share of them that it is taken over.
@@ -19,10 +20,14 @@ pub struct SlopeAverage {
 
 /// What is left out of the Gaussian: e^{−60} of its peak, and as much of all slopes.
 const CUT: f64 = 60.0;
+/// A ring of normals is followed to where the Gaussian is e^{−60} of what it is at most on the ring.
+const RING_CUT: f64 = 60.0;
 /// What that and the ends of the rules that stop there make of a mean, at most.
 const BEYOND_CUT: f64 = 1e-24;
 /// The finest relative tolerance: below it rounding of the weights may keep the value from settling.
 pub const FINEST: f64 = 64.0 * EPSILON;
+/// Of a bound.
+const ENOUGH: f64 = 0.01;
 /// What a coarser one than this would save is not worth asking for.
 const COARSEST: f64 = 1e-4;
 
@@ -58,10 +63,11 @@ pub fn slope_average(
     };
     let tolerance = tolerance.clamp(FINEST, COARSEST);
     let normals = Normals::new(incidence, SQRT_2 * ratio.get(), tolerance / 8.0);
+    // Two digits of a bound are enough, with 2 % for the third.
+    let rough = Normals::new(incidence, normals.deviation, ENOUGH);
     let reflectance = |local| index.energies(local).mixed(polarization);
     let mean = normals.integrate(tolerance, index, |normal| normal.weight * reflectance(normal.local).value);
-    // Two digits of a bound are enough, with 2 % for the third.
-    let bound = normals.integrate(0.01, index, |normal| {
+    let bound = rough.integrate(ENOUGH, index, |normal| {
         let energy = reflectance(normal.local);
         // What θ′ is off by moves F′ along its course, beside the error of F′ itself.
         let off = LOCAL_UNITS * EPSILON;
@@ -71,7 +77,11 @@ pub fn slope_average(
         normal.weight * (energy.error + moved) + normal.weight_error * energy.value
     });
     let value = (mean.value / illuminated_fraction).min(1.0);
-    let absolute = 1.02 * bound.value + mean.error + normals.horizon_error() + BEYOND_CUT;
+    let absolute = 1.02 * bound.value
+        + mean.error
+        + normals.unsettled.get() * mean.value
+        + normals.horizon_error()
+        + BEYOND_CUT;
     let error = absolute / illuminated_fraction + 8.0 * EPSILON * value;
     SlopeAverage { reflectance: Energy { value, error: error.min(1.0) }, illuminated_fraction }
 }
@@ -86,13 +96,15 @@ struct Normals {
     reach: f64,
     /// Relative, of the rule around the source.
     tolerance: f64,
+    /// The last change of that rule, the largest so far.
+    unsettled: Cell<f64>,
 }
 
 /// The normals at one θ′.
 struct Ring {
     /// sin and cos of θ′, not negative.
     local: SinCos,
-    /// The density of slopes by θ′, and the bound of its error.
+    /// The density of slopes by θ′, and the bound of its error but for that of the rule around the source.
     weight: f64,
     weight_error: f64,
 }
@@ -102,7 +114,7 @@ impl Normals {
         let steepest = libm::atan(deviation * (2.0 * CUT).sqrt());
         let half = libm::sin(0.5 * steepest);
         let theta_i = libm::atan2(incidence.sin, incidence.cos);
-        Self { incidence, theta_i, deviation, reach: half * half, tolerance }
+        Self { incidence, theta_i, deviation, reach: half * half, tolerance, unsettled: Cell::new(0.0) }
     }
 
     /// The steepest slope angle that is not cut.
@@ -147,7 +159,7 @@ impl Normals {
         }
     }
 
-    /// ∫ exp(−tan²α/2s²)/cos³α dψ around the source, and the bound of its error: dp dq = dω/cos³α. `terms` is what sin θ′ is
+    /// ∫ exp(−tan²α/2s²)/cos³α dψ around the source, and the bound of its rounding: dp dq = dω/cos³α. `terms` is what sin θ′ is
     /// the sum of.
     ///
     /// The trapezoidal rule from ψ = 0 to where the integrand is cut or to π; it is even about both ends, so the
@@ -156,11 +168,8 @@ impl Normals {
         let half = libm::sin(0.5 * delta);
         let nearest = half * half;
         let across = sin_local * self.incidence.sin;
-        let end = if self.reach - nearest < across {
-            2.0 * libm::asin(((self.reach - nearest) / across).max(0.0).sqrt())
-        } else {
-            PI
-        };
+        let reach = self.reach_beyond(nearest);
+        let end = if reach < across { 2.0 * libm::asin((reach / across).max(0.0).sqrt()) } else { PI };
         let off = LOCAL_UNITS * EPSILON * terms * self.incidence.sin;
         // sin²(α/2) = sin²(δ/2) + sin θ′ sin θ_i sin²(ψ/2)
         let at = |psi: f64| {
@@ -172,20 +181,33 @@ impl Normals {
         let mut sum = at(0.0).plus(at(end)).times(0.5);
         sum = (1..points).fold(sum, |sum, i| sum.plus(at(end * (f64::from(i) / f64::from(points)))));
         let mut value = sum.value * end / f64::from(points);
-        let mut change = value;
+        let mut change = 1.0;
         while points < MOST_POINTS {
             let between = |i: i32| end * ((f64::from(i) + 0.5) / f64::from(points));
             sum = (0..points).fold(sum, |sum, i| sum.plus(at(between(i))));
             points *= 2;
             let finer = sum.value * end / f64::from(points);
-            change = (finer - value).abs();
+            change = (finer - value).abs() / finer;
             value = finer;
-            if change <= self.tolerance * finer {
+            // Of nothing nothing is left.
+            if !(change > self.tolerance) {
                 break;
             }
         }
+        self.unsettled.set(self.unsettled.get().max(change));
         let rounding = sum.error * end / f64::from(points) + EPSILON * f64::from(points) * value;
-        (2.0 * value, 2.0 * (change + rounding))
+        (2.0 * value, 2.0 * rounding)
+    }
+
+    /// How much larger sin²(α/2) can be on a ring than the least there is on it.
+    fn reach_beyond(&self, nearest: f64) -> f64 {
+        let cos = 1.0 - 2.0 * nearest;
+        let tan = 2.0 * (nearest * (1.0 - nearest)).sqrt() / cos;
+        let ratio = tan / self.deviation;
+        let steepest = self.deviation * (ratio * ratio + 2.0 * RING_CUT).sqrt();
+        // sin²(α/2) − sin²(α₀/2) by the sine of half the sum and of half the difference of both angles.
+        let (least, most) = (libm::atan(tan), libm::atan(steepest));
+        libm::sin(0.5 * (most + least)) * libm::sin(0.5 * (most - least))
     }
 
     /// exp(−tan²α/2s²)/cos³α from sin²(α/2), which is off by a few ε and another `off`; 0 at and below the horizon.
