@@ -1,6 +1,7 @@
 //! Laws that the models must obey, each to a tolerance that is derived where it stands.
 
 mod energy;
+mod handover;
 mod hankel;
 mod invariance;
 mod limits;
