@@ -145,3 +145,28 @@ fn what_has_no_effect_is_said() {
     });
     assert!(unused, "{answer}");
 }
+
+#[test]
+fn smith_takes_away_the_energy_that_facets_would_make() {
+    // Slopes of m = 0.3 at 85°: unshadowed their albedo is 1.53; Smith's facets hide each other as often as they crowd.
+    let server = Server::start();
+    let mut body = json!({
+        "model": "beckmann_spizzichino", "surface": {"rms_height_um": 1.5, "correlation_length_um": 10},
+        "illumination": {"wavelength_um": 0.1}, "components": ["specular_lobe"],
+        "geometry": {"theta_i_deg": 85, "theta_r_deg": 60}
+    });
+    let mut above_one = |shadowing: &str| {
+        body["surface"]["shadowing"] = json!(shadowing);
+        let answer = server.answer("/v1/radiance", &body);
+        let warnings = answer["warnings"].as_array().unwrap().clone();
+        warnings
+            .iter()
+            .find(|warning| warning["code"] == "energy_above_one")
+            .map(|found| found["value"].clone())
+    };
+    let bare = above_one("none").and_then(|value| value.as_f64()).expect("a warning");
+    // The quadrature is good to 0.05 of it.
+    assert!((bare / 1.53 - 1.0).abs() < 0.05, "{bare}");
+    assert_eq!(above_one("smith"), None);
+    assert_eq!(above_one("smith_uncorrelated"), None);
+}
