@@ -190,7 +190,7 @@ impl Normals {
             change = (finer - value).abs() / finer;
             value = finer;
             // Of nothing nothing is left.
-            if !(change > self.tolerance) {
+            if change <= self.tolerance || finer == 0.0 {
                 break;
             }
         }
