@@ -25,6 +25,7 @@ pub mod image_irradiance;
 mod kernel;
 pub mod lambertian;
 pub mod linear_image;
+pub mod material;
 pub mod model;
 pub mod numeric;
 pub mod outline;
