@@ -2,8 +2,8 @@
 
 use super::App;
 use super::api::{
-    diagrams, documents, figures, health, image_irradiance, limits, plan, problems, radiance, roughness,
-    tradeoff,
+    diagrams, documents, figures, health, image_irradiance, limits, materials, plan, problems, radiance,
+    roughness, tradeoff,
 };
 use super::edge::not_found;
 use super::openapi;
@@ -25,6 +25,8 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(figures::index))
         .routes(routes!(figures::figure))
         .routes(routes!(roughness::roughness))
+        .routes(routes!(materials::index))
+        .routes(routes!(materials::material))
         .routes(routes!(limits::limits))
         .routes(routes!(problems::index))
         .routes(routes!(problems::problem))

@@ -101,3 +101,5 @@ pub const MAX_SWEEP_POINTS: usize = 1_000_000;
 pub const MAX_ROWS: usize = 10_000_000;
 /// Fixed angles of one diagram.
 pub const MAX_CURVES: usize = 100;
+/// Wavelengths of one spectrum.
+pub const MAX_WAVELENGTHS: usize = 1_000;

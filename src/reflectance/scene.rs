@@ -3,7 +3,7 @@
 
 use super::beckmann_spizzichino::RelativeRoughness;
 use super::degrees::SinCos;
-use super::fresnel::{Medium, Polarization};
+use super::fresnel::{Medium, Polarization, RefractiveIndex};
 use super::numeric::lobe_series::Method;
 use super::outline::{Outline, SceneError};
 use super::quantity::{
@@ -211,6 +211,17 @@ impl Scene {
     pub fn with_accuracy(&self, accuracy: Accuracy) -> Self {
         let parameters = SceneParameters { accuracy, ..self.parameters.clone() };
         Self { parameters, ..self.clone() }
+    }
+
+    /// The same scene in light of another wavelength, at which its medium may have another index: no part of what can be
+    /// wrong where a wavelength is given.
+    #[must_use]
+    pub fn with_light(&self, wavelength: Wavelength, index: Option<RefractiveIndex>) -> Self {
+        let mut scene = self.clone();
+        let SceneParameters { illumination, surface, .. } = &mut scene.parameters;
+        illumination.wavelength = Some(wavelength);
+        surface.medium = index.map_or(surface.medium, Medium::Index);
+        scene
     }
 
     /// The parameters it was made of.

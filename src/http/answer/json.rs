@@ -4,6 +4,7 @@ use super::columns::{Stretch, headings};
 use super::output::{End, Output};
 use super::text::Text;
 use super::work::{Curve, Over, Work};
+use crate::http::api::light::MediumAnswer;
 use crate::http::compute::job::Job;
 use crate::http::problem::Problem;
 use crate::reflectance::diagram::Sweep;
@@ -18,7 +19,7 @@ const A_ROW: usize = 80;
 /// A small answer, at once.
 pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
     let mut text = Text::with_capacity(BESIDES + A_ROW * work.rows());
-    begin(work, &mut text);
+    begin(work, &mut text)?;
     if let Over::Sweep(sweep) = &work.over {
         text.numbers(sweep.positions(), true);
         between(sweep, &mut text);
@@ -26,7 +27,7 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
     for index in 0..work.curves() {
         let curve = work.prepare(index)?;
         let stretch = work.stretch(&curve, 0..work.points(), || false)?;
-        begin_curve(&curve, index, &mut text);
+        begin_curve(&curve, index, &mut text)?;
         for (name, numbers) in names(work, &curve).zip(&stretch.numbers) {
             text.list(name, |text| text.numbers(numbers, true));
         }
@@ -50,7 +51,7 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
 /// A large answer, part by part.
 pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
     let mut text = Text::default();
-    begin(&work, &mut text);
+    begin(&work, &mut text)?;
     if let Over::Sweep(sweep) = &work.over {
         let positions = sweep.positions().to_vec();
         send_list(
@@ -67,7 +68,7 @@ pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
     for index in 0..work.curves() {
         let prepare = Arc::clone(&work);
         let curve = output.run(move |_| prepare.prepare(index)).await??;
-        begin_curve(&curve, index, &mut text);
+        begin_curve(&curve, index, &mut text)?;
         stream_curve(&work, &curve, &mut text, &output).await?;
         end_curve(&curve, &mut text);
     }
@@ -168,17 +169,26 @@ fn names(work: &Work, curve: &Curve) -> impl Iterator<Item = &'static str> + use
     headings(curve.components(), work.quantity(), work.output()).into_iter().map(|(name, _)| name)
 }
 
-fn begin(work: &Work, text: &mut Text) {
+fn begin(work: &Work, text: &mut Text) -> Result<(), Problem> {
     text.push("{\"quantity\":\"");
     text.push(work.quantity().name());
     text.push("\",\"unit\":\"");
     text.push(work.quantity().unit());
     text.push("\"");
-    if let Over::Sweep(sweep) = &work.over {
-        text.push(",\"axis\":{\"name\":\"");
-        text.push(sweep.axis().name());
-        text.push("\",\"unit\":\"degrees\",\"values\":[");
+    if let Some(lookup) = work.looked_up() {
+        text.name("medium");
+        text.value(&MediumAnswer::from(lookup))?;
     }
+    match &work.over {
+        Over::Directions(_) if work.spectrum().is_some() => text.push(",\"spectrum\":["),
+        Over::Directions(_) => (),
+        Over::Sweep(sweep) => {
+            text.push(",\"axis\":{\"name\":\"");
+            text.push(sweep.axis().name());
+            text.push("\",\"unit\":\"degrees\",\"values\":[");
+        }
+    }
+    Ok(())
 }
 
 /// Between the axis and the curves.
@@ -192,23 +202,39 @@ fn between(sweep: &Sweep, text: &mut Text) {
     text.push("[");
 }
 
-fn begin_curve(curve: &Curve, index: usize, text: &mut Text) {
-    if let Some(at) = curve.at_deg {
+/// One curve of several is an object of its own.
+fn begin_curve(curve: &Curve, index: usize, text: &mut Text) -> Result<(), Problem> {
+    if is_one_of_several(curve) {
         text.push(if index == 0 { "{" } else { ",{" });
+    }
+    if let Some(line) = curve.line {
+        text.name("wavelength_um");
+        text.numbers(&[line.wavelength.get()], true);
+        if let Some(lookup) = line.lookup {
+            text.name("medium");
+            text.value(&MediumAnswer::from(lookup))?;
+        }
+    }
+    if let Some(at) = curve.at_deg {
         text.name("at_deg");
         text.numbers(&[at], true);
     }
+    Ok(())
+}
+
+const fn is_one_of_several(curve: &Curve) -> bool {
+    curve.at_deg.is_some() || curve.line.is_some()
 }
 
 fn end_curve(curve: &Curve, text: &mut Text) {
-    if curve.at_deg.is_some() {
+    if is_one_of_several(curve) {
         text.push("}");
     }
 }
 
 fn end(work: &Work, text: &mut Text) {
     text.push(match work.over {
-        Over::Directions(_) => "}",
-        Over::Sweep(_) => "]}",
+        Over::Directions(_) if work.spectrum().is_none() => "}",
+        Over::Directions(_) | Over::Sweep(_) => "]}",
     });
 }

@@ -4,6 +4,7 @@ use super::columns::headings;
 use super::output::{End, Output};
 use super::work::{Curve, Model, Over, Subject, Work};
 use crate::http::api::answer::{OmittedAnswer, WarningAnswer};
+use crate::http::api::light::MediumAnswer;
 use crate::http::compute::job::Job;
 use crate::http::encode::rows::{Cells, Head, Heading, Kind, RowFormat, Rows};
 use crate::http::problem::Problem;
@@ -19,10 +20,17 @@ use std::sync::Arc;
 #[derive(Serialize)]
 struct Note {
     #[serde(skip_serializing_if = "Option::is_none")]
+    wavelength_um: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    medium: Option<MediumAnswer>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     at_deg: Option<f64>,
     omitted: Vec<OmittedAnswer>,
     warnings: Vec<WarningAnswer>,
 }
+
+/// The first column of a spectrum.
+const WAVELENGTH: &str = "wavelength_um";
 
 /// The head of a table, and its curves made ready: which columns there are is known only when all are.
 struct Table {
@@ -85,9 +93,10 @@ impl Table {
             |component: &Component| curves.iter().any(|curve| curve.components().contains(component));
         let components: Vec<Component> = Component::ALL.into_iter().filter(evaluated).collect();
         let names = headings(&components, work.quantity(), work.output());
-        let mut columns: Vec<Heading> = angles
-            .map(|name| (name, "degrees"))
+        let wavelength = work.spectrum().map(|_| (WAVELENGTH, "micrometres"));
+        let mut columns: Vec<Heading> = wavelength
             .into_iter()
+            .chain(angles.map(|name| (name, "degrees")))
             .chain(names)
             .map(|(name, unit)| Heading { name, unit, kind: Kind::Number })
             .collect();
@@ -129,13 +138,12 @@ impl Table {
             }
             (None, None) => None,
         };
-        let mut columns: Vec<Cells> = angles
-            .iter()
-            .map(|angle| match angle {
-                AngleColumn::One(angle) => Cells::Number(*angle),
-                AngleColumn::Each(angles) => Cells::Numbers(angles),
-            })
-            .collect();
+        let wavelength = curve.line.map(|line| Cells::Number(line.wavelength.get()));
+        let angles = angles.iter().map(|angle| match angle {
+            AngleColumn::One(angle) => Cells::Number(*angle),
+            AngleColumn::Each(angles) => Cells::Numbers(angles),
+        });
+        let mut columns: Vec<Cells> = wavelength.into_iter().chain(angles).collect();
         for heading in &self.head.columns[columns.len()..] {
             let place = names.iter().position(|(name, _)| *name == heading.name);
             columns.push(match (heading.kind, place, &texts) {
@@ -156,7 +164,10 @@ impl Note {
             Model::Scene(prepared) => prepared.omitted(),
             Model::Linear { .. } => &[],
         };
+        let lookup = curve.line.map_or(work.looked_up(), |line| line.lookup);
         Ok(Self {
+            wavelength_um: curve.line.map(|line| line.wavelength.get()),
+            medium: lookup.map(MediumAnswer::from),
             at_deg: curve.at_deg,
             omitted: omitted.iter().cloned().map(OmittedAnswer::from).collect(),
             warnings: work.warnings(curve)?.into_iter().map(WarningAnswer::from).collect(),

@@ -3,6 +3,7 @@
 use super::output::begin;
 use super::{Over, Subject, Work, json, table};
 use crate::config::Cli;
+use crate::http::api::light::{Light, Line};
 use crate::http::app::App;
 use crate::http::edge::Deadline;
 use crate::http::encode::rows::RowFormat;
@@ -12,7 +13,7 @@ use crate::reflectance::evaluate::{Output, Quantity};
 use crate::reflectance::figures;
 use crate::reflectance::linear_image::{LinearKind, LinearScene, SpikeShape};
 use crate::reflectance::quantity::{
-    Azimuth, FacetSlope, Quantity as _, SourceZenith, Strength, SweepAngle, ViewerZenith,
+    Azimuth, FacetSlope, Quantity as _, SourceZenith, Strength, SweepAngle, ViewerZenith, Wavelength,
 };
 use axum::body::to_bytes;
 use clap::Parser as _;
@@ -25,11 +26,16 @@ const POINTS: usize = 20_000;
 fn subjects() -> Vec<Subject> {
     let panels = figures::find("22").unwrap().evaluate(false).unwrap();
     let scene = panels[0].scene.clone().unwrap();
+    let line = |wavelength| Line { wavelength: Wavelength::new(wavelength).unwrap(), lookup: None };
+    let lights = [Light::One(None), Light::Spectrum(vec![line(0.4), line(0.7)])];
     let outputs = [(false, false), (true, true)];
-    let scenes = outputs.map(|(log10, per_direction)| Subject::Scene {
-        scene: Box::new(scene.clone()),
-        quantity: Quantity::Radiance,
-        output: Output { log10, per_direction },
+    let scenes = lights.into_iter().flat_map(|light| {
+        outputs.map(|(log10, per_direction)| Subject::Scene {
+            scene: Box::new(scene.clone()),
+            light: light.clone(),
+            quantity: Quantity::Radiance,
+            output: Output { log10, per_direction },
+        })
     });
     let strength = |value| Strength::new(value).unwrap();
     let linear = LinearScene {
@@ -40,7 +46,7 @@ fn subjects() -> Vec<Subject> {
         facet_slope: FacetSlope::new(10.0).unwrap(),
         spike: SpikeShape::Delta,
     };
-    scenes.into_iter().chain([Subject::Linear { scene: Arc::new(linear), log10: true }]).collect()
+    scenes.chain([Subject::Linear { scene: Arc::new(linear), log10: true }]).collect()
 }
 
 fn overs() -> [Over; 2] {

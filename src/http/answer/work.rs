@@ -1,6 +1,7 @@
 //! What is to be evaluated for one answer: a scene over directions, or over the curves of a sweep.
 
 use super::columns::Stretch;
+use crate::http::api::light::{Light, Line};
 use crate::http::app::Limits;
 use crate::http::edge::Meter;
 use crate::http::problem::{Code, FieldError, Problem};
@@ -9,6 +10,7 @@ use crate::reflectance::directions::{AngleColumn, Directions};
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
 use crate::reflectance::findings::Warning;
 use crate::reflectance::linear_image::LinearScene;
+use crate::reflectance::material::Lookup;
 use crate::reflectance::quantity::OutOfBounds;
 use crate::reflectance::scene::{Component, Scene};
 use std::ops::Range;
@@ -38,7 +40,7 @@ pub(crate) struct Work {
 /// Of what.
 #[derive(Clone, Debug)]
 pub(crate) enum Subject {
-    Scene { scene: Box<Scene>, quantity: Quantity, output: Output },
+    Scene { scene: Box<Scene>, light: Light, quantity: Quantity, output: Output },
     Linear { scene: Arc<LinearScene>, log10: bool },
 }
 
@@ -49,9 +51,11 @@ pub(crate) enum Over {
     Sweep(Box<Sweep>),
 }
 
-/// One curve made ready; directions without a sweep are one curve.
+/// One curve made ready; directions without a sweep are one curve, at each wavelength.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
+    /// The wavelength, if there is one of several.
+    pub(super) line: Option<Line>,
     /// The fixed angle of a sweep.
     pub(super) at_deg: Option<f64>,
     pub(super) model: Model,
@@ -70,9 +74,26 @@ impl Work {
     }
 
     pub(super) fn rows(&self) -> usize {
-        match &self.over {
+        let rows = match &self.over {
             Over::Directions(directions) => directions.count(),
             Over::Sweep(sweep) => sweep.rows(),
+        };
+        rows * self.spectrum().map_or(1, <[Line]>::len)
+    }
+
+    /// The wavelengths, if there may be several.
+    pub(super) fn spectrum(&self) -> Option<&[Line]> {
+        match &self.subject {
+            Subject::Scene { light: Light::Spectrum(lines), .. } => Some(lines),
+            Subject::Scene { light: Light::One(_), .. } | Subject::Linear { .. } => None,
+        }
+    }
+
+    /// What was looked up at the only wavelength.
+    pub(super) fn looked_up(&self) -> Option<Lookup> {
+        match &self.subject {
+            Subject::Scene { light: Light::One(lookup), .. } => *lookup,
+            Subject::Scene { light: Light::Spectrum(_), .. } | Subject::Linear { .. } => None,
         }
     }
 
@@ -84,11 +105,17 @@ impl Work {
         }
     }
 
-    pub(super) fn curves(&self) -> usize {
+    /// Curves of each wavelength.
+    fn fixed_angles(&self) -> usize {
         match &self.over {
             Over::Directions(_) => 1,
             Over::Sweep(sweep) => sweep.at().len(),
         }
+    }
+
+    /// All curves, those of one wavelength together.
+    pub(super) fn curves(&self) -> usize {
+        self.fixed_angles() * self.spectrum().map_or(1, <[Line]>::len)
     }
 
     pub(super) fn quantity(&self) -> Quantity {
@@ -107,14 +134,19 @@ impl Work {
 
     /// What is wrong with it by the limits of this service, which may be below those of the document.
     pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
+        let lines = self.spectrum().map_or(1, <[Line]>::len);
         let (pointer, what, limit) = match self.over {
             Over::Directions(_) => ("/geometry", "directions", limits.directions),
             Over::Sweep(_) => ("/at_deg", "rows (points times fixed angles)", limits.rows),
         };
         let rows = self.rows();
-        if rows <= limit {
+        let (pointer, what, rows, limit) = if rows / lines > limit {
+            (pointer, what, rows / lines, limit)
+        } else if rows > limits.rows {
+            ("/illumination/wavelength_um", "rows (directions times wavelengths)", rows, limits.rows)
+        } else {
             return Ok(());
-        }
+        };
         let detail = format!("{rows} {what} in one request: at most {limit} are answered");
         Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
     }
@@ -123,22 +155,25 @@ impl Work {
     pub(super) fn prepare(&self, index: usize) -> Result<Curve, Problem> {
         let at_deg = match &self.over {
             Over::Directions(_) => None,
-            Over::Sweep(sweep) => Some(sweep.at()[index]),
+            Over::Sweep(sweep) => Some(sweep.at()[index % self.fixed_angles()]),
         };
+        let line = self.spectrum().map(|lines| lines[index / self.fixed_angles()]);
         let model = match &self.subject {
             Subject::Linear { scene, log10 } => Model::Linear { scene: Arc::clone(scene), log10: *log10 },
-            Subject::Scene { scene, quantity, output } => {
+            Subject::Scene { scene, quantity, output, .. } => {
+                let lit = line.map(|line| scene.with_light(line.wavelength, line.index()));
+                let scene = lit.as_ref().unwrap_or(scene);
                 let prepared = |directions: &_| Prepared::new(scene, directions, *quantity, *output);
                 Model::Scene(Arc::new(match &self.over {
                     Over::Directions(directions) => prepared(directions),
                     Over::Sweep(sweep) => {
                         let all = 0..sweep.positions().len();
-                        prepared(&sweep.directions(sweep.at()[index], all).map_err(left_range)?)
+                        prepared(&sweep.directions(at_deg.unwrap_or_default(), all).map_err(left_range)?)
                     }
                 }))
             }
         };
-        Ok(Curve { at_deg, model })
+        Ok(Curve { line, at_deg, model })
     }
 
     /// What the caller should know of a curve whatever its values are.

@@ -3,7 +3,6 @@
 use super::answer::{OmittedAnswer, WarningAnswer};
 use super::radiance::{CheckedDirections, RadianceRequest};
 use super::responses::PostProblems;
-use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
 use crate::http::edge::Deadline;
@@ -145,7 +144,8 @@ pub(crate) async fn plan(
     deadline: Deadline,
     JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    let RadianceRequest { geometry: CheckedDirections(directions), scene: CheckedScene(scene), .. } = request;
+    let RadianceRequest { geometry: CheckedDirections(directions), scene, .. } = request;
+    let (scene, _) = scene.single()?;
     compute::run(deadline, directions.count(), move || {
         json::response(&PlanAnswer::from(Plan::of(&scene, &directions)), 4096)
     })

@@ -1,17 +1,20 @@
 //! The description of a scene as requests carry it: model, surface, light, sensor, accuracy.
 
+use super::light::{self, Light, Lit, Wavelengths};
+use crate::http::input::medium::MediumWire;
 use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
-use crate::http::problem::Code;
+use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::bounds::DEFAULT_TOLERANCE;
-use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::fresnel::Polarization;
+use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError};
 use crate::reflectance::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
-    SpecularScale, Tolerance, Wavelength,
+    SpecularScale, Tolerance,
 };
 use crate::reflectance::scene::{
     self, Accuracy, CameraSensor, Components, Model, Scene, SceneParameters, Sensor,
@@ -31,8 +34,9 @@ object! {
         /// σ_α of (58), degrees: the width of the density exp(−α²/2σ_α²) of facet slope angles. Absent or null:
         /// by (79) from σ_h/T where a Torrance-Sparrow lobe needs it.
         facet_slope_deg: Option<FacetSlope>,
-        /// What the surface is made of; a perfect conductor when absent or null.
-        medium: Option<Medium>,
+        /// What the surface is made of: n and k, or a material that is looked up at the wavelength; a perfect conductor
+        /// when absent or null.
+        medium: Option<MediumWire>,
         /// ρ; κ_diff of (57) is ρ/π. 0 when absent or null.
         diffuse_albedo: Option<Fraction>,
         /// c·a_f of (71), per steradian. Absent or null: the value with which the projected areas of all facets
@@ -48,8 +52,9 @@ object! {
     partial
     /// The light: a collimated beam.
     IlluminationWire as "Illumination" {
-        /// λ, micrometres. Needed by the models that rest on the height statistics.
-        wavelength_um: Option<Wavelength>,
+        /// λ in vacuum, micrometres: one number, or an array with an answer for each. Needed by the models that rest on
+        /// the height statistics, and by materials.
+        wavelength_um: Option<Wavelengths>,
         /// Of the beam on a plane normal to it, W m^-2 or W m^-2 nm^-1; the answer carries the same. 1 when
         /// absent or null.
         irradiance: Option<Irradiance>,
@@ -240,12 +245,21 @@ impl SceneWire {
         }
     }
 
-    /// The parameters, if all could be read.
-    fn into_parameters(self) -> Option<SceneParameters> {
+    /// The light with what is looked up in it, as far as it could be read.
+    fn lit(&self, reader: &mut Reader) -> Option<Lit> {
+        let wavelengths = match self.illumination.as_ref()? {
+            Some(light) => light.wavelength_um.as_ref().map(Option::as_ref),
+            None => Some(None),
+        };
+        light::lit(wavelengths, self.surface.as_ref()?.medium, reader)
+    }
+
+    /// The parameters in a light, if all could be read.
+    fn into_parameters(self, lit: &Lit) -> Option<SceneParameters> {
         let (surface, accuracy) = (self.surface?, self.accuracy?);
-        let (wavelength, irradiance, polarization) = match self.illumination? {
-            Some(light) => (light.wavelength_um?, light.irradiance?, light.polarization?),
-            None => (None, None, None),
+        let (irradiance, polarization) = match self.illumination? {
+            Some(light) => (light.irradiance?, light.polarization?),
+            None => (None, None),
         };
         let (tolerance, method) = match accuracy {
             Some(accuracy) => (accuracy.relative_tolerance?, accuracy.method?),
@@ -257,13 +271,13 @@ impl SceneWire {
                 rms_height: surface.rms_height_um?,
                 correlation_length: surface.correlation_length_um?,
                 facet_slope: surface.facet_slope_deg?,
-                medium: surface.medium?.unwrap_or(Medium::PerfectConductor),
+                medium: lit.medium,
                 diffuse_albedo: surface.diffuse_albedo?.unwrap_or(Fraction::ZERO),
                 specular_scale: surface.specular_scale?,
                 shadowing: surface.shadowing?,
             },
             illumination: scene::Illumination {
-                wavelength,
+                wavelength: lit.wavelength,
                 irradiance: irradiance.or_else(|| Irradiance::new(1.0).ok())?,
                 polarization: polarization.unwrap_or_else(Polarization::unpolarized),
             },
@@ -280,9 +294,27 @@ impl SceneWire {
     }
 }
 
-/// A scene whose parameters fit together, read in one go with the checks of [`Outline::errors`].
-#[derive(Clone, Debug)]
-pub(crate) struct CheckedScene(pub(crate) Scene);
+/// A scene whose parameters fit together, read in one go with the checks of [`Outline::errors`], and its light. The scene
+/// is that of the first wavelength.
+#[derive(Clone, Debug, Hash)]
+pub(crate) struct CheckedScene {
+    pub(crate) scene: Scene,
+    pub(crate) light: Light,
+}
+
+impl CheckedScene {
+    /// The scene of a resource that answers one wavelength, and what was looked up for its medium.
+    pub(crate) fn single(self) -> Result<(Scene, Option<Lookup>), Problem> {
+        match self.light {
+            Light::One(lookup) => Ok((self.scene, lookup)),
+            Light::Spectrum(_) => {
+                let pointer = "/illumination/wavelength_um".to_owned();
+                let detail = "an array: this resource answers one wavelength, expected a number".to_owned();
+                Err(Problem::invalid(vec![FieldError { pointer, code: Code::WrongType, detail }]))
+            }
+        }
+    }
+}
 
 impl WireObject for CheckedScene {
     const NAME: &'static str = SceneWire::NAME;
@@ -293,8 +325,10 @@ impl WireObject for CheckedScene {
         for error in wire.outline().errors() {
             note(&error, reader);
         }
+        let lit = wire.lit(reader)?;
         // What is wrong with the whole was just noted.
-        Scene::new(wire.into_parameters()?).ok().map(Self)
+        let scene = Scene::new(wire.into_parameters(&lit)?).ok()?;
+        Some(Self { scene, light: lit.light })
     }
 
     fn names() -> Vec<&'static str> {

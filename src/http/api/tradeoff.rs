@@ -2,7 +2,6 @@
 
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
-use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
 use crate::http::edge::Deadline;
@@ -146,8 +145,8 @@ pub(crate) async fn tradeoff(
     deadline: Deadline,
     JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
-        request;
+    let RadianceRequest { geometry: CheckedDirections(directions), output, scene } = request;
+    let (scene, _) = scene.single()?;
     let permit = compute::turn(deadline, &ONE_AT_A_TIME).await?;
     compute::blocking(deadline, move || {
         let _permit = permit;
