@@ -103,3 +103,5 @@ pub const MAX_ROWS: usize = 10_000_000;
 pub const MAX_CURVES: usize = 100;
 /// Wavelengths of one spectrum.
 pub const MAX_WAVELENGTHS: usize = 1_000;
+/// Series of one diagram: fixed angles times wavelengths.
+pub const MAX_SERIES: usize = 10_000;

@@ -10,6 +10,7 @@ use crate::http::problem::Problem;
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::evaluate::Tally;
 use futures_util::{StreamExt as _, pin_mut};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Bytes about as many as an answer has besides its numbers, and for each row.
@@ -24,10 +25,25 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
         text.numbers(sweep.positions(), true);
         between(sweep, &mut text);
     }
-    for index in 0..work.curves() {
+    whole_curves(work, 0..work.curves(), &mut text, || false)?;
+    end(work, &mut text);
+    Ok(text.0)
+}
+
+/// Curves that are small, one after the other.
+fn whole_curves(
+    work: &Work,
+    curves: Range<usize>,
+    text: &mut Text,
+    is_over: impl Fn() -> bool,
+) -> Result<(), Problem> {
+    for index in curves {
+        if is_over() {
+            break;
+        }
         let curve = work.prepare(index)?;
-        let stretch = work.stretch(&curve, 0..work.points(), || false)?;
-        begin_curve(&curve, index, &mut text)?;
+        let stretch = work.stretch(&curve, 0..work.points(), &is_over)?;
+        begin_curve(&curve, index, text)?;
         for (name, numbers) in names(work, &curve).zip(&stretch.numbers) {
             text.list(name, |text| text.numbers(numbers, true));
         }
@@ -42,10 +58,9 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
         text.push("[");
         text.diagnostics(&stretch.diagnostics, true)?;
         text.push("]");
-        end_curve(&curve, &mut text);
+        end_curve(&curve, text);
     }
-    end(work, &mut text);
-    Ok(text.0)
+    Ok(())
 }
 
 /// A large answer, part by part.
@@ -64,6 +79,23 @@ pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
         )
         .await?;
         between(sweep, &mut text);
+    }
+    if let Some(groups) = work.groups() {
+        output.send(text.take()).await?;
+        let texts = output.run_all(groups.map(|curves| {
+            let work = Arc::clone(&work);
+            move |job: &Job| {
+                let mut text = Text::default();
+                whole_curves(&work, curves, &mut text, || job.is_stopped())?;
+                Ok::<_, Problem>(text)
+            }
+        }));
+        pin_mut!(texts);
+        while let Some(text) = texts.next().await {
+            output.send(text??.0).await?;
+        }
+        end(&work, &mut text);
+        return output.send(text.0).await;
     }
     for index in 0..work.curves() {
         let prepare = Arc::clone(&work);

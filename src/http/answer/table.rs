@@ -44,9 +44,7 @@ pub(super) fn whole(work: &Work, format: RowFormat) -> Result<Vec<u8>, Problem> 
     let curves = (0..work.curves()).map(|index| work.prepare(index)).collect::<Result<_, _>>()?;
     let table = Table::new(work, format, curves)?;
     let mut bytes = format.head(&table.head)?;
-    for curve in &table.curves {
-        bytes.append(&mut table.rows(work, curve, 0..work.points(), || false)?);
-    }
+    bytes.append(&mut table.rows(work, 0..work.curves(), &(0..work.points()), || false)?);
     bytes.append(&mut format.tail(&table.head)?);
     Ok(bytes)
 }
@@ -55,26 +53,38 @@ pub(super) fn whole(work: &Work, format: RowFormat) -> Result<Vec<u8>, Problem> 
 pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -> Result<(), End> {
     let mut curves = Vec::with_capacity(work.curves());
     {
-        let prepared = output.run_all((0..work.curves()).map(|index| {
+        let groups: Box<dyn Iterator<Item = Range<usize>> + Send> = match work.groups() {
+            Some(groups) => Box::new(groups),
+            None => Box::new((0..work.curves()).map(|index| index..index + 1)),
+        };
+        let prepared = output.run_all(groups.map(|curves| {
             let work = Arc::clone(&work);
-            move |_: &Job| work.prepare(index)
+            move |_: &Job| curves.map(|index| work.prepare(index)).collect::<Result<Vec<_>, _>>()
         }));
         pin_mut!(prepared);
-        while let Some(curve) = prepared.next().await {
-            curves.push(curve??);
+        while let Some(group) = prepared.next().await {
+            curves.append(&mut group??);
         }
     }
-    let table = Arc::new(Table::new(&work, format, curves)?);
+    let of_all = Arc::clone(&work);
+    let table = Arc::new(output.run(move |_| Table::new(&of_all, format, curves)).await??);
     output.send(format.head(&table.head)?).await?;
-    let pieces = (0..work.curves()).flat_map(|index| {
-        let (work, table) = (Arc::clone(&work), Arc::clone(&table));
-        work.pieces().map(move |range| {
-            let (work, table) = (Arc::clone(&work), Arc::clone(&table));
-            move |job: &Job| table.rows(&work, &table.curves[index], range, || job.is_stopped())
-        })
-    });
+    let pieces: Box<dyn Iterator<Item = (Range<usize>, Range<usize>)> + Send> = match work.groups() {
+        Some(groups) => {
+            let points = work.points();
+            Box::new(groups.map(move |curves| (curves, 0..points)))
+        }
+        None => {
+            let work = Arc::clone(&work);
+            let of_curve = move |index| work.pieces().map(move |points| (index..index + 1, points));
+            Box::new((0..table.curves.len()).flat_map(of_curve))
+        }
+    };
     {
-        let rows = output.run_all(pieces);
+        let rows = output.run_all(pieces.map(|(curves, points)| {
+            let (work, table) = (Arc::clone(&work), Arc::clone(&table));
+            move |job: &Job| table.rows(&work, curves, &points, || job.is_stopped())
+        }));
         pin_mut!(rows);
         while let Some(rows) = rows.next().await {
             output.send(rows??).await?;
@@ -116,45 +126,138 @@ impl Table {
         Ok(Self { format, head: Head { columns, rows: work.rows(), notes }, curves })
     }
 
-    /// Some rows of a curve, written.
+    /// The same points of some curves, written; nothing where nobody waits for them.
     fn rows(
         &self,
         work: &Work,
-        curve: &Curve,
-        range: Range<usize>,
+        curves: Range<usize>,
+        points: &Range<usize>,
         is_over: impl Fn() -> bool,
     ) -> Result<Vec<u8>, Problem> {
-        let stretch = work.stretch(curve, range.clone(), &is_over)?;
-        if is_over() {
-            // Nobody waits for it, and it may have holes.
-            return Ok(Vec::new());
+        let mut bytes = Vec::new();
+        let mut joined: Option<Part> = None;
+        for curve in &self.curves[curves] {
+            let part = self.part(work, curve, points.clone(), &is_over)?;
+            if is_over() {
+                // It may have holes.
+                return Ok(Vec::new());
+            }
+            joined = Some(match joined.take() {
+                None => part,
+                Some(before) if before.has_columns_of(&part) => before.joined(part),
+                Some(before) => {
+                    self.write(&before, &mut bytes)?;
+                    part
+                }
+            });
         }
+        if let Some(last) = joined {
+            self.write(&last, &mut bytes)?;
+        }
+        Ok(bytes)
+    }
+
+    fn write(&self, part: &Part, bytes: &mut Vec<u8>) -> Result<(), Problem> {
+        let columns = part.columns.iter().map(Column::cells).collect();
+        self.format.rows(&self.head, &Rows { count: part.count, columns }, bytes)
+    }
+
+    /// Some points of a curve.
+    fn part(
+        &self,
+        work: &Work,
+        curve: &Curve,
+        points: Range<usize>,
+        is_over: impl Fn() -> bool,
+    ) -> Result<Part, Problem> {
+        let mut stretch = work.stretch(curve, points.clone(), is_over)?;
         let names = headings(curve.components(), work.quantity(), work.output());
-        let angles = work.angles(curve, range.clone());
-        let texts: Option<Vec<&'static str>> = match (&stretch.method, &stretch.delta_on) {
+        let mut texts: Option<Vec<&'static str>> = match (&stretch.method, &stretch.delta_on) {
             (Some(methods), _) => Some(methods.iter().map(|method| method.name()).collect()),
             (None, Some(delta_on)) => {
                 Some(delta_on.iter().map(|&is_on| if is_on { "true" } else { "false" }).collect())
             }
             (None, None) => None,
         };
-        let wavelength = curve.line.map(|line| Cells::Number(line.wavelength.get()));
-        let angles = angles.iter().map(|angle| match angle {
-            AngleColumn::One(angle) => Cells::Number(*angle),
-            AngleColumn::Each(angles) => Cells::Numbers(angles),
+        let wavelength = curve.line.map(|line| Column::Number(line.wavelength.get()));
+        let angles = work.angles(curve, points.clone()).map(|angle| match angle {
+            AngleColumn::One(angle) => Column::Number(angle),
+            AngleColumn::Each(angles) => Column::Numbers(angles),
         });
-        let mut columns: Vec<Cells> = wavelength.into_iter().chain(angles).collect();
+        let mut columns: Vec<Column> = wavelength.into_iter().chain(angles).collect();
         for heading in &self.head.columns[columns.len()..] {
             let place = names.iter().position(|(name, _)| *name == heading.name);
-            columns.push(match (heading.kind, place, &texts) {
-                (Kind::Number, Some(place), _) => Cells::Numbers(&stretch.numbers[place]),
-                (Kind::Text { .. }, _, Some(texts)) => Cells::Names(texts),
-                _ => Cells::Absent,
+            columns.push(match (heading.kind, place) {
+                (Kind::Number, Some(place)) => Column::Numbers(std::mem::take(&mut stretch.numbers[place])),
+                (Kind::Text { .. }, _) => texts.take().map_or(Column::Absent, Column::Names),
+                (Kind::Number, None) => Column::Absent,
             });
         }
-        let mut bytes = Vec::new();
-        self.format.rows(&self.head, &Rows { count: range.len(), columns }, &mut bytes)?;
-        Ok(bytes)
+        Ok(Part { count: points.len(), columns })
+    }
+}
+
+/// Some consecutive rows.
+struct Part {
+    count: usize,
+    columns: Vec<Column>,
+}
+
+/// One column of them.
+enum Column {
+    Numbers(Vec<f64>),
+    /// The same number in all.
+    Number(f64),
+    Names(Vec<&'static str>),
+    /// Nothing in any.
+    Absent,
+}
+
+impl Column {
+    fn cells(&self) -> Cells<'_> {
+        match self {
+            Self::Numbers(numbers) => Cells::Numbers(numbers),
+            Self::Number(number) => Cells::Number(*number),
+            Self::Names(names) => Cells::Names(names),
+            Self::Absent => Cells::Absent,
+        }
+    }
+
+    /// As one number a row.
+    fn numbers(self, count: usize) -> Vec<f64> {
+        match self {
+            Self::Numbers(numbers) => numbers,
+            Self::Number(number) => vec![number; count],
+            Self::Names(_) | Self::Absent => Vec::new(),
+        }
+    }
+}
+
+impl Part {
+    /// Whether the same columns are absent.
+    fn has_columns_of(&self, other: &Self) -> bool {
+        let is_absent = |column: &Column| matches!(column, Column::Absent);
+        self.columns.iter().map(is_absent).eq(other.columns.iter().map(is_absent))
+    }
+
+    /// With more rows of the same columns below.
+    fn joined(self, below: Self) -> Self {
+        let columns = self.columns.into_iter().zip(below.columns).map(|columns| match columns {
+            (Column::Names(mut names), Column::Names(mut more)) => {
+                names.append(&mut more);
+                Column::Names(names)
+            }
+            (Column::Absent, _) => Column::Absent,
+            (Column::Number(number), Column::Number(same)) if number.to_bits() == same.to_bits() => {
+                Column::Number(number)
+            }
+            (numbers, more) => {
+                let mut numbers = numbers.numbers(self.count);
+                numbers.append(&mut more.numbers(below.count));
+                Column::Numbers(numbers)
+            }
+        });
+        Self { columns: columns.collect(), count: self.count + below.count }
     }
 }
 

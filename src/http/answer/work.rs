@@ -5,6 +5,7 @@ use crate::http::api::light::{Light, Line};
 use crate::http::app::Limits;
 use crate::http::edge::Meter;
 use crate::http::problem::{Code, FieldError, Problem};
+use crate::reflectance::bounds::MAX_SERIES;
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
@@ -22,11 +23,16 @@ const EXPONENTIAL: f64 = 3.5;
 const LINEAR: f64 = 400.0;
 /// Nanoseconds of one number in an answer, written as text.
 const NUMBER: f64 = 30.0;
+/// Nanoseconds of a curve besides its rows: what it requires, its warnings and their text.
+const CURVE: f64 = 5e3;
 /// Nanoseconds of a piece of work for the pool: a change of threads costs a fortieth of it.
 const PIECE: f64 = 1e6;
 /// Rows of a piece: not so few that the changes of threads show, nor so many that text and columns take memory.
 const LEAST_ROWS: usize = 128;
 const MOST_ROWS: usize = 16 << 10;
+
+/// Where wavelengths stand in a request.
+const WAVELENGTH: &str = "/illumination/wavelength_um";
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -135,6 +141,7 @@ impl Work {
     /// What is wrong with it by the limits of this service, which may be below those of the document.
     pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
         let lines = self.spectrum().map_or(1, <[Line]>::len);
+        let series = self.curves();
         let (pointer, what, limit) = match self.over {
             Over::Directions(_) => ("/geometry", "directions", limits.directions),
             Over::Sweep(_) => ("/at_deg", "rows (points times fixed angles)", limits.rows),
@@ -143,7 +150,9 @@ impl Work {
         let (pointer, what, rows, limit) = if rows / lines > limit {
             (pointer, what, rows / lines, limit)
         } else if rows > limits.rows {
-            ("/illumination/wavelength_um", "rows (directions times wavelengths)", rows, limits.rows)
+            (WAVELENGTH, "rows (directions times wavelengths)", rows, limits.rows)
+        } else if series > MAX_SERIES {
+            (WAVELENGTH, "series (fixed angles times wavelengths)", series, MAX_SERIES)
         } else {
             return Ok(());
         };
@@ -242,6 +251,21 @@ impl Work {
             Subject::Linear { .. } => LINEAR,
         };
         evaluation + NUMBER * numbers
+    }
+
+    /// Nanoseconds of all of it, likewise.
+    pub(super) fn nanoseconds(&self) -> f64 {
+        self.nanoseconds_a_row() * self.rows() as f64 + CURVE * self.curves() as f64
+    }
+
+    /// Consecutive curves that are about a millisecond of work together; none where one is that much by itself.
+    pub(super) fn groups(&self) -> Option<impl Iterator<Item = Range<usize>> + Send + use<>> {
+        let curve = self.nanoseconds_a_row() * self.points() as f64 + CURVE;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and small")]
+        let together = (PIECE / curve) as usize;
+        let curves = self.curves();
+        (together > 1 && curves > 1)
+            .then(|| (0..curves).step_by(together).map(move |first| first..curves.min(first + together)))
     }
 
     /// The ranges of a curve's points that are about a millisecond of work each.

@@ -1,18 +1,34 @@
-//! The light of a scene: at one wavelength or at several, with the material looked up at each.
+//! The light of a scene, as requests carry it: at one wavelength or at several, with the material looked up at each.
 
 use crate::http::input::medium::MediumWire;
+use crate::http::input::object::object;
 use crate::http::input::reader::{ElementErrors, Reader};
 use crate::http::input::values::OneOrMany;
 use crate::http::problem::Code;
 use crate::reflectance::bounds::MAX_WAVELENGTHS;
-use crate::reflectance::fresnel::{Medium, RefractiveIndex};
+use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::material::{Lookup, Material, Source};
-use crate::reflectance::quantity::Wavelength;
+use crate::reflectance::quantity::{Irradiance, Wavelength};
 use serde::Serialize;
 use utoipa::ToSchema;
 
 /// The wavelengths of a request.
 pub(crate) type Wavelengths = OneOrMany<Wavelength, MAX_WAVELENGTHS>;
+
+object! {
+    partial
+    /// The light: a collimated beam.
+    IlluminationWire as "Illumination" {
+        /// λ in vacuum, micrometres: one number, or an array with an answer for each. Needed by the models that rest on
+        /// the height statistics, and by materials.
+        wavelength_um: Option<Wavelengths>,
+        /// Of the beam on a plane normal to it, W m^-2 or W m^-2 nm^-1; the answer carries the same. 1 when
+        /// absent or null.
+        irradiance: Option<Irradiance>,
+        /// Polarization with respect to the facet's plane of incidence; unpolarized when absent or null.
+        polarization: Option<Polarization>,
+    }
+}
 
 /// One wavelength of a spectrum.
 #[derive(Clone, Copy, Debug, Hash)]

@@ -14,7 +14,7 @@ use crate::http::input::query::{MOST_PARAMETERS, NoQuery};
 use crate::http::link::{Known, configured};
 use crate::http::negotiate::{Format, JsonOnly};
 use crate::http::problem::{Kind, Problem};
-use crate::reflectance::bounds::{MAX_CURVES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS};
+use crate::reflectance::bounds::{MAX_CURVES, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS};
 use axum::extract::State;
 use axum::response::Response;
 use clap::CommandFactory as _;
@@ -245,6 +245,13 @@ fn list(limits: &Limits) -> LimitList {
             MAX_WAVELENGTHS,
             "wavelengths",
             "Most wavelengths of one spectrum",
+            invalid,
+        ),
+        Limit::fixed(
+            "series",
+            MAX_SERIES,
+            "series",
+            "Most fixed angles times wavelengths of one diagram",
             invalid,
         ),
         Limit::fixed("fixed_angles", MAX_CURVES, "angles", "Most fixed angles of one diagram", invalid),

@@ -1,6 +1,6 @@
 //! The description of a scene as requests carry it: model, surface, light, sensor, accuracy.
 
-use super::light::{self, Light, Lit, Wavelengths};
+use super::light::{self, IlluminationWire, Light, Lit};
 use crate::http::input::medium::MediumWire;
 use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
@@ -45,21 +45,6 @@ object! {
         /// How facets hide each other. Absent or null: `none` for Beckmann-Spizzichino, `v_groove` (65) for
         /// Torrance-Sparrow and the unified model.
         shadowing: Option<Shadowing>,
-    }
-}
-
-object! {
-    partial
-    /// The light: a collimated beam.
-    IlluminationWire as "Illumination" {
-        /// λ in vacuum, micrometres: one number, or an array with an answer for each. Needed by the models that rest on
-        /// the height statistics, and by materials.
-        wavelength_um: Option<Wavelengths>,
-        /// Of the beam on a plane normal to it, W m^-2 or W m^-2 nm^-1; the answer carries the same. 1 when
-        /// absent or null.
-        irradiance: Option<Irradiance>,
-        /// Polarization with respect to the facet's plane of incidence; unpolarized when absent or null.
-        polarization: Option<Polarization>,
     }
 }
 
