@@ -28,7 +28,6 @@ MATERIALS = [
     metal("Ti", "titanium", "Johnson", "Werner", "Rakic-BB", "Mash", "Ordal"),
     metal("V", "vanadium", "Johnson", "Werner"),
     metal("W", "tungsten", "Weaver", "Werner", "Rakic-BB", "Ordal", also=["wolfram"]),
-    metal("Zn", "zinc", "Querry", "Werner"),
     metal("TiN", "titanium nitride", "Pfluger"),
     metal("Si", "silicon", "Green-2008", "Aspnes", "Schinke", "Salzberg", "Li-293K"),
     metal("Ge", "germanium", "Nunley", "Aspnes", "Jellison", "Icenogle", "Burnett", "Li-293K"),

@@ -1,6 +1,9 @@
 //! An array of wavelengths: one answer for each, in every resource and format that has them.
 
 use crate::server::{Server, errors, problem};
+use arrow_array::cast::AsArray as _;
+use arrow_array::types::Float64Type;
+use arrow_ipc::reader::StreamReader;
 use serde_json::{Value, json};
 
 const WAVELENGTHS: [f64; 3] = [0.65, 0.4, 1.5];
@@ -102,6 +105,62 @@ fn tables_begin_with_the_wavelength() {
     }
 }
 
+/// Name and cells of a column, None where null.
+type NamedColumn = (String, Vec<Option<f64>>);
+
+/// The columns of an Arrow stream, how many batches it has, and what it says of its series.
+fn arrow(bytes: &[u8]) -> (Vec<NamedColumn>, usize, String) {
+    let reader = StreamReader::try_new(bytes, None).unwrap();
+    let schema = reader.schema();
+    let mut columns: Vec<NamedColumn> =
+        schema.fields().iter().map(|field| (field.name().clone(), Vec::new())).collect();
+    let mut batches = 0;
+    for batch in reader {
+        batches += 1;
+        for (column, (_, numbers)) in batch.unwrap().columns().iter().zip(&mut columns) {
+            numbers.extend(column.as_primitive::<Float64Type>());
+        }
+    }
+    (columns, batches, schema.metadata()["series"].clone())
+}
+
+#[test]
+fn what_one_wavelength_omits_is_null_in_its_rows() {
+    let server = Server::start();
+    // Smooth for the last wavelengths, rough for the first.
+    let wavelengths: Vec<f64> = (0..40).map(|index| 0.1 * 1.2f64.powi(index)).collect();
+    let body = json!({
+        "model": "beckmann_spizzichino",
+        "surface": {"rms_height_um": 0.1, "correlation_length_um": 3, "medium": {"material": "Al"}},
+        "sensor": {"footprint_um2": 1e6, "patch_half_x_um": 500, "patch_half_y_um": 500},
+        "illumination": {"wavelength_um": wavelengths}, "accuracy": {"relative_tolerance": 1e-3},
+        "geometry": {"theta_i_deg": [20, 30], "theta_r_deg": [20, 30]}
+    });
+    let request = server.request("POST", "/v1/radiance").header("content-type", "application/json");
+    let request = request.header("accept", "application/vnd.apache.arrow.stream").body(body.to_string());
+    let (columns, batches, notes) = arrow(&request.send().unwrap().bytes().unwrap());
+    let column = |name: &str| &columns.iter().find(|(column, _)| column == name).unwrap().1;
+    let lines = server.answer("/v1/radiance", &body);
+    let lines = lines["spectrum"].as_array().unwrap();
+    let notes: Value = serde_json::from_str(&notes).unwrap();
+    assert!(batches < 10 && column("total").len() == 80, "{batches}");
+    let mut omitted = [0; 2];
+    for (index, line) in lines.iter().enumerate() {
+        assert_eq!(notes[index]["medium"], line["medium"]);
+        assert_eq!(notes[index]["wavelength_um"], line["wavelength_um"]);
+        for row in 0..2 {
+            let cell = |name: &str| json!(column(name)[2 * index + row]);
+            assert_eq!(cell("wavelength_um"), line["wavelength_um"]);
+            for (name, omitted) in ["specular_lobe", "specular_spike"].into_iter().zip(&mut omitted) {
+                assert_eq!(cell(name), line[name].get(row).cloned().unwrap_or_default());
+                *omitted += usize::from(line[name].is_null());
+            }
+            assert_eq!(cell("total"), line["total"][row]);
+        }
+    }
+    assert!(omitted.iter().all(|&omitted| omitted > 0), "{omitted:?}");
+}
+
 #[test]
 fn many_wavelengths_are_the_same_whether_made_at_once_or_streamed() {
     let server = Server::start();
@@ -144,7 +203,11 @@ fn what_is_wrong_with_wavelengths_is_said_one_by_one() {
     // 1000 wavelengths in 10001 directions are more rows than a table may have.
     let mut wide = at(body, &json!(vec![0.5; 1000]));
     wide["geometry"]["theta_r_deg"] = json!(vec![10; 10_001]);
-    assert_eq!(refused("/v1/radiance", &wide), [(all, "too_many".to_owned())]);
+    assert_eq!(refused("/v1/radiance", &wide), [("/geometry".to_owned(), "too_many".to_owned())]);
+    let link = "/v1/diagrams?model=torrance_sparrow&facet_slope_deg=9&sweep=theta_r_deg&from_deg=0&to_deg=1";
+    let list = |count: usize| vec!["0.5"; count].join(",");
+    let many = server.get(&format!("{link}&at_deg={}&wavelength_um={}", list(50), list(201)));
+    assert_eq!(errors(&problem(many, 422)), [("/at_deg".to_owned(), "too_many".to_owned())]);
     let limits: Value = server.get("/v1/limits").json().unwrap();
     let limit = limits["limits"].as_array().unwrap().iter().find(|limit| limit["name"] == "wavelengths");
     assert_eq!(limit.unwrap()["value"], 1000);

@@ -69,17 +69,15 @@ pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -
     let of_all = Arc::clone(&work);
     let table = Arc::new(output.run(move |_| Table::new(&of_all, format, curves)).await??);
     output.send(format.head(&table.head)?).await?;
-    let pieces: Box<dyn Iterator<Item = (Range<usize>, Range<usize>)> + Send> = match work.groups() {
-        Some(groups) => {
+    let pieces: Box<dyn Iterator<Item = (Range<usize>, Range<usize>)> + Send> =
+        if let Some(groups) = work.groups() {
             let points = work.points();
             Box::new(groups.map(move |curves| (curves, 0..points)))
-        }
-        None => {
+        } else {
             let work = Arc::clone(&work);
             let of_curve = move |index| work.pieces().map(move |points| (index..index + 1, points));
             Box::new((0..table.curves.len()).flat_map(of_curve))
-        }
-    };
+        };
     {
         let rows = output.run_all(pieces.map(|(curves, points)| {
             let (work, table) = (Arc::clone(&work), Arc::clone(&table));

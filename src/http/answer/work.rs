@@ -31,9 +31,6 @@ const PIECE: f64 = 1e6;
 const LEAST_ROWS: usize = 128;
 const MOST_ROWS: usize = 16 << 10;
 
-/// Where wavelengths stand in a request.
-const WAVELENGTH: &str = "/illumination/wavelength_um";
-
 /// What is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Work {
@@ -141,22 +138,28 @@ impl Work {
     /// What is wrong with it by the limits of this service, which may be below those of the document.
     pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
         let lines = self.spectrum().map_or(1, <[Line]>::len);
-        let series = self.curves();
-        let (pointer, what, limit) = match self.over {
-            Over::Directions(_) => ("/geometry", "directions", limits.directions),
-            Over::Sweep(_) => ("/at_deg", "rows (points times fixed angles)", limits.rows),
+        let (pointer, what, whats, limit) = match self.over {
+            Over::Directions(_) => {
+                ("/geometry", "directions", "rows (directions times wavelengths)", limits.directions)
+            }
+            Over::Sweep(_) => (
+                "/at_deg",
+                "rows (points times fixed angles)",
+                "rows (points times fixed angles times wavelengths)",
+                limits.rows,
+            ),
         };
-        let rows = self.rows();
-        let (pointer, what, rows, limit) = if rows / lines > limit {
-            (pointer, what, rows / lines, limit)
-        } else if rows > limits.rows {
-            (WAVELENGTH, "rows (directions times wavelengths)", rows, limits.rows)
+        let (rows, series) = (self.rows(), self.curves());
+        let (number, what, limit) = if rows / lines > limit {
+            (rows / lines, what, limit)
+        } else if rows > limits.rows && lines > 1 {
+            (rows, whats, limits.rows)
         } else if series > MAX_SERIES {
-            (WAVELENGTH, "series (fixed angles times wavelengths)", series, MAX_SERIES)
+            (series, "series (fixed angles times wavelengths)", MAX_SERIES)
         } else {
             return Ok(());
         };
-        let detail = format!("{rows} {what} in one request: at most {limit} are answered");
+        let detail = format!("{number} {what} in one request: at most {limit} are answered");
         Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
     }
 

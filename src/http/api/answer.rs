@@ -115,7 +115,7 @@ impl ToSchema for LineAnswer {
 pub(crate) enum AnswerOrSpectrum {
     /// At one wavelength.
     #[schema(title = "One wavelength")]
-    One(Answer),
+    One(Box<Answer>),
     /// At several.
     #[schema(title = "Spectrum")]
     Spectrum(SpectrumAnswer),

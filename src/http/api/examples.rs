@@ -37,6 +37,11 @@ const UNIFIED: &str = r#"{"model": "unified",
  "sensor": {"footprint_um2": 1e6, "patch_half_x_um": 500, "patch_half_y_um": 500},
  "geometry": {"theta_i_deg": [10, 30, 60], "theta_r_deg": [10, 30, 60]}}"#;
 
+const SPECTRUM: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.3, "correlation_length_um": 5, "medium": {"material": "Al"}},
+ "illumination": {"wavelength_um": [0.405, 0.532, 0.633]},
+ "geometry": {"theta_i_deg": 30, "theta_r_deg": [15, 30, 45]}}"#;
+
 const PAPER: &str = r#"{"model": "beckmann_spizzichino",
  "surface": {"rms_height_um": 1, "correlation_length_um": 10},
  "illumination": {"wavelength_um": 0.5},
@@ -95,6 +100,12 @@ pub(crate) const BODIES: &[Example] = &[
         "The first 100 terms only, with the error bound they have",
         PAPER,
     ),
+    example(
+        "/v1/radiance",
+        "spectrum",
+        "Brushed aluminium at three wavelengths, n and k looked up",
+        SPECTRUM,
+    ),
     example("/v1/radiance", "lambertian", "An ideal diffuser", LAMBERTIAN),
     example(
         "/v1/brdf",
@@ -143,6 +154,7 @@ pub(crate) const LINKS: &[Link] = &[
             ("theta_i_deg", "30"),
         ],
     },
+    Link { path: "/v1/materials/{name}", values: &[("wavelength_um", "0.633")] },
     Link {
         path: "/v1/diagrams",
         values: &[
