@@ -53,7 +53,7 @@ pub(super) fn whole(work: &Work, format: RowFormat) -> Result<Vec<u8>, Problem> 
 pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -> Result<(), End> {
     let mut curves = Vec::with_capacity(work.curves());
     {
-        let groups: Box<dyn Iterator<Item = Range<usize>> + Send> = match work.groups() {
+        let groups: Box<dyn Iterator<Item = Range<usize>> + Send> = match work.groups(Some(format)) {
             Some(groups) => Box::new(groups),
             None => Box::new((0..work.curves()).map(|index| index..index + 1)),
         };
@@ -70,12 +70,12 @@ pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -
     let table = Arc::new(output.run(move |_| Table::new(&of_all, format, curves)).await??);
     output.send(format.head(&table.head)?).await?;
     let pieces: Box<dyn Iterator<Item = (Range<usize>, Range<usize>)> + Send> =
-        if let Some(groups) = work.groups() {
+        if let Some(groups) = work.groups(Some(format)) {
             let points = work.points();
             Box::new(groups.map(move |curves| (curves, 0..points)))
         } else {
             let work = Arc::clone(&work);
-            let of_curve = move |index| work.pieces().map(move |points| (index..index + 1, points));
+            let of_curve = move |index| work.pieces(format).map(move |points| (index..index + 1, points));
             Box::new((0..table.curves.len()).flat_map(of_curve))
         };
     {
@@ -104,7 +104,7 @@ impl Table {
         let wavelength = work.spectrum().map(|_| (WAVELENGTH, "micrometres"));
         let mut columns: Vec<Heading> = wavelength
             .into_iter()
-            .chain(angles.map(|name| (name, "degrees")))
+            .chain(angles.map(|name| (name, "degrees")).into_iter().filter(|_| work.has_angles))
             .chain(names)
             .map(|(name, unit)| Heading { name, unit, kind: Kind::Number })
             .collect();
@@ -144,20 +144,21 @@ impl Table {
                 None => part,
                 Some(before) if before.has_columns_of(&part) => before.joined(part),
                 Some(before) => {
-                    self.write(&before, &mut bytes)?;
+                    self.write(before, &mut bytes)?;
                     part
                 }
             });
         }
         if let Some(last) = joined {
-            self.write(&last, &mut bytes)?;
+            self.write(last, &mut bytes)?;
         }
         Ok(bytes)
     }
 
-    fn write(&self, part: &Part, bytes: &mut Vec<u8>) -> Result<(), Problem> {
-        let columns = part.columns.iter().map(Column::cells).collect();
-        self.format.rows(&self.head, &Rows { count: part.count, columns }, bytes)
+    fn write(&self, part: Part, bytes: &mut Vec<u8>) -> Result<(), Problem> {
+        let Part { count, mut columns } = part;
+        let columns = columns.iter_mut().map(Column::cells).collect();
+        self.format.rows(&self.head, Rows { count, columns }, bytes)
     }
 
     /// Some points of a curve.
@@ -177,15 +178,18 @@ impl Table {
             }
             (None, None) => None,
         };
-        let wavelength = curve.line.map(|line| Column::Number(line.wavelength.get()));
-        let angles = work.angles(curve, points.clone()).map(|angle| match angle {
-            AngleColumn::One(angle) => Column::Number(angle),
-            AngleColumn::Each(angles) => Column::Numbers(angles),
-        });
-        let mut columns: Vec<Column> = wavelength.into_iter().chain(angles).collect();
+        let mut columns: Vec<Column> = Vec::with_capacity(self.head.columns.len());
+        columns.extend(curve.line.map(|line| Column::Number(line.wavelength.get())));
+        if work.has_angles {
+            columns.extend(work.angles(curve, points.clone()).into_iter().map(|angle| match angle {
+                AngleColumn::One(angle) => Column::Number(angle),
+                AngleColumn::Each(angles) => Column::Numbers(angles),
+            }));
+        }
         for heading in &self.head.columns[columns.len()..] {
             let place = names.iter().position(|(name, _)| *name == heading.name);
             columns.push(match (heading.kind, place) {
+                // No two columns have one name.
                 (Kind::Number, Some(place)) => Column::Numbers(std::mem::take(&mut stretch.numbers[place])),
                 (Kind::Text { .. }, _) => texts.take().map_or(Column::Absent, Column::Names),
                 (Kind::Number, None) => Column::Absent,
@@ -212,9 +216,10 @@ enum Column {
 }
 
 impl Column {
-    fn cells(&self) -> Cells<'_> {
+    /// For writing; the numbers are given away.
+    fn cells(&mut self) -> Cells<'_> {
         match self {
-            Self::Numbers(numbers) => Cells::Numbers(numbers),
+            Self::Numbers(numbers) => Cells::Numbers(std::mem::take(numbers).into()),
             Self::Number(number) => Cells::Number(*number),
             Self::Names(names) => Cells::Names(names),
             Self::Absent => Cells::Absent,

@@ -100,12 +100,12 @@ fn parts_add_up_to_the_answer_made_at_once() {
     for subject in subjects() {
         for over in overs(POINTS) {
             let work = Work::new(subject.clone(), over);
-            assert!(work.pieces().count() > 1 && work.groups().is_none());
+            assert!(work.pieces_of_a_column().count() > 1 && work.groups(None).is_none());
             check(&work);
         }
         for over in overs(5) {
             let work = Work::new(subject.clone(), over);
-            assert_eq!(work.groups().is_some(), work.curves() > 1);
+            assert_eq!(work.groups(None).is_some(), work.curves() > 1);
             check(&work);
         }
     }
