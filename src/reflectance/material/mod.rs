@@ -131,8 +131,8 @@ impl Source {
     /// n − ik; None outside the range.
     ///
     /// Samples are interpolated to within 4 ε of the larger neighbour, formulas evaluated in double precision. At four
-    /// random wavelengths and both ends of every source the bits are those of the database's own Python package
-    /// (`tests/golden/material.rs`).
+    /// random wavelengths and both ends of every source the values are those of the database's own Python package: the
+    /// same bits between samples, n by formulas with powers to a few ε (`tests/golden/material.rs`).
     pub fn at(&self, wavelength: Wavelength) -> Option<RefractiveIndex> {
         if !self.covers(wavelength) {
             return None;
