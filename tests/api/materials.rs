@@ -40,6 +40,10 @@ fn a_material_is_its_n_and_k_at_the_wavelength() {
             .json()
             .unwrap();
         assert_eq!(alone["sources"][0]["index"], given);
+        assert_eq!(alone["sources"][0]["k_tabulated"], medium["k_tabulated"].is_null());
+        for path in ["/v1/plan", "/v1/tradeoff"] {
+            assert_eq!(server.answer(path, &body(&asked, &json!(wavelength)))["medium"], medium, "{path}");
+        }
     }
     // A medium that is given as numbers is not repeated.
     let answer = server.answer("/v1/radiance", &body(&json!({"n": 1.5}), &json!(0.5)));

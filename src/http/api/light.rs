@@ -80,12 +80,18 @@ pub(crate) struct MediumAnswer {
     n: f64,
     /// k of n − ik.
     k: f64,
+    /// False where the source has no k, which is taken as 0; absent where it has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    k_tabulated: Option<bool>,
 }
 
 impl From<Lookup> for MediumAnswer {
     fn from(lookup: Lookup) -> Self {
         let RefractiveIndex { n, k } = lookup.index;
-        Self { material: lookup.material.name, source: lookup.source.id, n: n.get(), k: k.get() }
+        let Lookup { material, source, .. } = lookup;
+        let k_tabulated = (!source.has_k()).then_some(false);
+        Self { material: material.name, source: source.id, n: n.get(), k: k.get(), k_tabulated }
     }
 }
 
