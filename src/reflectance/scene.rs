@@ -192,8 +192,13 @@ impl Scene {
             .as_ref()
             .map(|listed| outline.evaluated(parameters.model, listed))
             .unwrap_or_default();
+        Ok(Self::of_parts(parameters, evaluated))
+    }
+
+    /// Parameters that were checked, and the components to evaluate of them.
+    pub(super) fn of_parts(parameters: SceneParameters, evaluated: Vec<Component>) -> Self {
         let facets = FacetParameters::of(&parameters);
-        Ok(Self { parameters, evaluated, facets })
+        Self { parameters, evaluated, facets }
     }
 
     /// A scene of this crate's own making, complete by construction.

@@ -1,5 +1,6 @@
 //! Laws that the models must obey, each to a tolerance that is derived where it stands.
 
+mod albedo;
 mod energy;
 mod hankel;
 mod invariance;

@@ -5,7 +5,8 @@ use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
 use crate::http::problem::Code;
-use crate::reflectance::bounds::DEFAULT_TOLERANCE;
+use crate::reflectance::albedo::AlbedoScene;
+use crate::reflectance::bounds::{DEFAULT_ALBEDO_TOLERANCE, DEFAULT_TOLERANCE};
 use crate::reflectance::fresnel::{Medium, Polarization};
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError};
@@ -186,7 +187,7 @@ object! {
     partial
     /// How exactly, and by which method.
     AccuracyWire as "Accuracy" {
-        /// Of the total, per direction; 1e-9 when absent or null.
+        /// Of the total, per direction; 1e-9 when absent or null (1e-6 of an albedo).
         relative_tolerance: Option<Tolerance>,
         /// How the lobe series is evaluated: `series` sums to convergence, `paper` the first 100 terms as the
         /// authors did, `uniform` is a saddle-point expansion, `smooth` is (48) corrected, `rough` is (49). A named
@@ -241,7 +242,7 @@ impl SceneWire {
     }
 
     /// The parameters, if all could be read.
-    fn into_parameters(self) -> Option<SceneParameters> {
+    fn into_parameters(self, default_tolerance: f64) -> Option<SceneParameters> {
         let (surface, accuracy) = (self.surface?, self.accuracy?);
         let (wavelength, irradiance, polarization) = match self.illumination? {
             Some(light) => (light.wavelength_um?, light.irradiance?, light.polarization?),
@@ -273,7 +274,7 @@ impl SceneWire {
                 Some(Listed::Named(named)) => Components::Named(named.into_iter().collect::<Option<_>>()?),
             },
             accuracy: Accuracy {
-                relative_tolerance: tolerance.or_else(|| Tolerance::new(DEFAULT_TOLERANCE).ok())?,
+                relative_tolerance: tolerance.or_else(|| Tolerance::new(default_tolerance).ok())?,
                 method: method.unwrap_or(Method::Auto),
             },
         })
@@ -294,7 +295,40 @@ impl WireObject for CheckedScene {
             note(&error, reader);
         }
         // What is wrong with the whole was just noted.
-        Scene::new(wire.into_parameters()?).ok().map(Self)
+        Scene::new(wire.into_parameters(DEFAULT_TOLERANCE)?).ok().map(Self)
+    }
+
+    fn names() -> Vec<&'static str> {
+        SceneWire::names()
+    }
+
+    fn properties(object: ObjectBuilder) -> ObjectBuilder {
+        SceneWire::properties(object)
+    }
+
+    fn inner(schemas: &mut Schemas) {
+        SceneWire::inner(schemas);
+    }
+
+    fn query_parameters(required: bool) -> Vec<wire::Parameter> {
+        SceneWire::query_parameters(required)
+    }
+}
+
+/// The same for an albedo, which needs no sensor and has a tolerance of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedAlbedoScene(pub(crate) AlbedoScene);
+
+impl WireObject for CheckedAlbedoScene {
+    const NAME: &'static str = SceneWire::NAME;
+    const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
+
+    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let wire = SceneWire::take(fields, reader)?;
+        for error in AlbedoScene::outline(wire.outline()).errors() {
+            note(&error, reader);
+        }
+        AlbedoScene::new(wire.into_parameters(DEFAULT_ALBEDO_TOLERANCE)?).ok().map(Self)
     }
 
     fn names() -> Vec<&'static str> {

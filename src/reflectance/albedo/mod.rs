@@ -1,0 +1,165 @@
+//! Directional-hemispherical reflectance ρ(θ_i): the share of a beam that leaves the surface, by component.
+//!
+//! ρ = ∫ f_r cos θ_r dω_r over the hemisphere of viewers. The diffuse lobe has it in closed form, ρ of (57). The spike has it
+//! where the patch is large against the wavelength: ρ_o² integrates to λ²/A over the solid angle and the spike to F′ e^{−g},
+//! g and F′ at the mirror direction. The specular lobe is integrated, to a tolerance.
+
+mod findings;
+mod hemisphere;
+mod lobe;
+#[cfg(test)]
+mod tests;
+
+use super::degrees::SinCos;
+use super::estimate::Estimate;
+use super::numeric::EPSILON;
+use super::numeric::lobe_series::patches;
+use super::numeric::scaled::Scaled;
+use super::outline::{Outline, Parameter, SceneError};
+use super::quantity::SourceZenith;
+use super::scene::{Component, Model, Scene, SceneParameters};
+use super::shadowing::Shadowing;
+use super::unified;
+use lobe::{Lobe, Slopes};
+
+/// A scene whose albedo can be evaluated: it needs no sensor, and what it has of one is not used.
+#[derive(Clone, Debug)]
+pub struct AlbedoScene(Scene);
+
+/// The albedo of one incidence.
+#[derive(Clone, Copy, Debug)]
+pub struct Albedo {
+    /// By component, in the order of [`Component::ALL`]; none where it is not asked for.
+    pub components: [Option<Estimate>; 3],
+    /// Their sum.
+    pub total: Estimate,
+    /// F′ of (63) at θ_i, what a smooth plate reflects.
+    pub fresnel: f64,
+    /// 1 − e^{−g}, g in the mirror direction, where the scene has heights and a wavelength: the total integrated scatter.
+    pub scattered: Option<f64>,
+    /// Points at which the integrand was taken; 0 without a specular lobe.
+    pub evaluations: usize,
+}
+
+/// Rounding of g at the mirror direction in ε.
+const G_UNITS: f64 = 16.0;
+
+impl AlbedoScene {
+    /// Checks the parameters against each other. The tolerance is that of the integral, relative to each total.
+    pub fn new(parameters: SceneParameters) -> Result<Self, Vec<SceneError>> {
+        let outline = Self::outline(Outline::of(&parameters));
+        let errors = outline.errors();
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let listed = outline.components.as_ref();
+        let evaluated = listed.map(|listed| outline.evaluated(parameters.model, listed)).unwrap_or_default();
+        Ok(Self(Scene::of_parts(SceneParameters { sensor: None, ..parameters }, evaluated)))
+    }
+
+    /// What has to be given for an albedo: no sensor.
+    #[must_use]
+    pub fn outline(mut outline: Outline) -> Outline {
+        outline.absent.retain(|&parameter| parameter != Parameter::Sensor);
+        outline
+    }
+
+    /// The scene, with the components that are evaluated.
+    pub fn scene(&self) -> &Scene {
+        &self.0
+    }
+
+    /// Whether nothing has to be integrated.
+    pub fn is_closed(&self) -> bool {
+        !self.0.evaluated().contains(&Component::SpecularLobe)
+    }
+
+    /// The albedo of light from this zenith. None as soon as `is_over` says so, which is asked every few microseconds.
+    ///
+    /// Infinite where a source at exactly 90° meets a lobe without shadowing, which sends light though none arrives.
+    pub fn at(&self, theta_i: SourceZenith, is_over: impl Fn() -> bool) -> Option<Albedo> {
+        let p = self.0.parameters();
+        let source = SinCos::of_degrees(theta_i.get());
+        let plate = p.surface.medium.reflectance(source, p.illumination.polarization);
+        let g =
+            self.0.relative_roughness().map(|roughness| unified::mirror_g(roughness.height, 1.0, source.cos));
+        let mut components = [None; 3];
+        let mut evaluations = 0;
+        for &component in self.0.evaluated() {
+            components[component.index()] = match component {
+                Component::DiffuseLobe => {
+                    Some(Estimate::within(Scaled::new(p.surface.diffuse_albedo.get()), 0.0))
+                }
+                Component::SpecularSpike => g.map(|g| {
+                    let share = Estimate::within(Scaled::exp(-g), EPSILON * (4.0 + G_UNITS * g));
+                    share.times(plate.into())
+                }),
+                Component::SpecularLobe => match self.lobe() {
+                    None => None,
+                    // No light arrives: all that is sent is more than that, but where spike and facets share it.
+                    Some(_) if source.cos == 0.0 && self.shares() => Some(Estimate::ZERO),
+                    Some(lobe) if source.cos == 0.0 && lobe.shadowing == Shadowing::None => {
+                        let is_dark = plate.value == 0.0 || lobe.is_dark();
+                        Some(if is_dark { Estimate::ZERO } else { Estimate::INFINITE })
+                    }
+                    Some(lobe) => {
+                        let tolerance = p.accuracy.relative_tolerance.get();
+                        let power = lobe.power(source, 0.9 * tolerance, &is_over)?;
+                        evaluations = power.evaluations;
+                        Some(self.over_incident(power.value, power.error, source, g))
+                    }
+                },
+            };
+        }
+        let total = Estimate::total(&components);
+        Some(Albedo {
+            components,
+            total,
+            fresnel: plate.value,
+            // Not −0 for a source at the horizon.
+            scattered: g.map(|g| unified::lobe_share(g).abs()),
+            evaluations,
+        })
+    }
+
+    /// Whether the facets have 1 − e^{−g} of the energy and the spike the rest.
+    fn shares(&self) -> bool {
+        let p = self.0.parameters();
+        p.model == Model::Unified && p.surface.specular_scale.is_none()
+    }
+
+    /// The integral with the factors that do not depend on the viewer.
+    fn over_incident(&self, power: f64, error: f64, source: SinCos, g: Option<f64>) -> Estimate {
+        let value = Scaled::new(power);
+        let least = Scaled::new((power - error).max(0.0));
+        let mut sent = Estimate { value, error: Scaled::new(error), least };
+        if self.shares() {
+            let share = g.map_or(1.0, unified::lobe_share);
+            sent = sent.times(Estimate::within(Scaled::new(share), 28.0 * EPSILON));
+        }
+        if self.0.shadowing() == Shadowing::None {
+            sent = sent.scaled_by(Scaled::ONE / Scaled::new(source.cos)).widened(4.0 * EPSILON);
+        }
+        sent
+    }
+
+    fn lobe(&self) -> Option<Lobe> {
+        let p = self.0.parameters();
+        let slopes = if p.model == Model::BeckmannSpizzichino {
+            Slopes::Heights {
+                roughness: self.0.relative_roughness()?,
+                method: p.accuracy.method,
+                tier: patches::within(0.1 * p.accuracy.relative_tolerance.get()),
+            }
+        } else {
+            let facets = self.0.facets?;
+            Slopes::Angles { sigma_alpha: facets.sigma_alpha, scale: facets.scale }
+        };
+        Some(Lobe {
+            slopes,
+            medium: p.surface.medium,
+            polarization: p.illumination.polarization,
+            shadowing: self.0.shadowing(),
+        })
+    }
+}
