@@ -147,14 +147,24 @@ impl Hemisphere {
             let angles =
                 [complement / 3.0, (PI - complement) / 3.0, complement, theta_i, FRAC_PI_4, PI / 3.0];
             breaks.extend(angles.map(libm::tan));
+            // The one of masking goes round the ring like 1/(60° − α), within the source's height of 60°.
+            let mut before = 0.25;
+            while before > complement / 3.0 {
+                breaks.push(libm::tan(PI / 3.0 - before));
+                before /= 6.0;
+            }
         }
         if let Some(cos) = self.kinks.critical {
             let critical = libm::acos(cos);
-            let angles = [
-                (theta_i - critical).abs(),
-                theta_i + critical,
-                libm::acos((0.5 * self.source.cos / cos).min(1.0)),
-            ];
+            let angle_of = |cos: f64| libm::acos(cos.min(1.0));
+            let source = self.source.cos;
+            let mut angles =
+                vec![(theta_i - critical).abs(), theta_i + critical, angle_of(0.5 * source / cos)];
+            if self.kinks.grooves {
+                // Where the critical angle meets the branches of G.
+                let masked = 0.25 * (source + libm::hypot(source, 2.0 * cos)) / cos;
+                angles.extend([0.5 * cos / source, source / cos, masked].map(angle_of));
+            }
             breaks.extend(angles.into_iter().filter(|&angle| angle < FRAC_PI_2).map(libm::tan));
         }
         let last = steepest.min(end);
@@ -167,14 +177,14 @@ impl Hemisphere {
 
     fn spans(&self, width: f64, end: f64) -> Vec<Span> {
         let grazing = libm::tan(0.5 * self.complement);
-        let focus = libm::log(width.min(1.0));
+        let focus = libm::log(width);
         let mut spans = Vec::new();
         let mut low = 0.0;
         let mut after_break = false;
         for high in self.breaks(end) {
             let is_full = high <= grazing * (1.0 + 1e-9);
             if low == 0.0 {
-                let first = high.min(0.5 * width);
+                let first = high.min(0.5 * width.min(1.0));
                 spans.push(Span { low, high: first, soft: [false, first == high], is_full });
                 low = first;
                 after_break = first == high;

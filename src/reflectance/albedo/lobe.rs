@@ -6,7 +6,7 @@
 use super::hemisphere::{Facet, Hemisphere, Kinks, Ring};
 use crate::reflectance::beckmann_spizzichino::RelativeRoughness;
 use crate::reflectance::degrees::SinCos;
-use crate::reflectance::fresnel::{Energy, Medium, Polarization};
+use crate::reflectance::fresnel::{Energies, Energy, Medium, Polarization};
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::cubature::{self, Cubature, Grid, NODES};
 use crate::reflectance::numeric::dispatch::InstructionSet;
@@ -66,15 +66,18 @@ impl Lobe {
         Some(Cubature { error: whole.error + self.beyond(source), ..whole })
     }
 
-    /// Whether it has no strength.
+    /// Whether it has no strength, or there is no surface.
     pub(super) fn is_dark(&self) -> bool {
+        let overhead = SinCos { sin: 0.0, cos: 1.0 };
         matches!(self.slopes, Slopes::Angles { scale: 0.0, .. })
+            || self.medium.energies(overhead) == Energies::NONE
     }
 
     /// cos of the critical angle, beyond which all is reflected.
     fn critical(&self) -> Option<f64> {
         match self.medium {
-            Medium::Index(index) if index.n.get() < 1.0 => {
+            // More absorption rounds the corner off.
+            Medium::Index(index) if index.n.get() < 1.0 && index.k.get() < 0.5 => {
                 let n = index.n.get();
                 Some(((1.0 - n) * (1.0 + n)).sqrt())
             }
@@ -90,7 +93,7 @@ impl Lobe {
                 let wave = 2.0 * PI * roughness.correlation_length;
                 // v_xy T = 2 with v_xy = 2k cos θ′ sin α, and cos θ′ ≥ sin α near a grazing source.
                 let diffraction = (1.0 / (wave * source.cos)).min(1.0 / wave.sqrt());
-                (slope.max(diffraction).min(1.0), f64::INFINITY)
+                (slope.max(diffraction), f64::INFINITY)
             }
             Slopes::Angles { sigma_alpha, .. } => {
                 let end = match self.most_over_cos_i(source) {
@@ -98,7 +101,7 @@ impl Lobe {
                     None => PI,
                 };
                 let end = if end < 1.57 { libm::tan(end) } else { f64::INFINITY };
-                (libm::tan(sigma_alpha.min(0.785)).min(1.0), end)
+                (libm::tan(sigma_alpha.min(0.785)), end)
             }
         }
     }

@@ -96,11 +96,11 @@ impl AlbedoScene {
                 }),
                 Component::SpecularLobe => match self.lobe() {
                     None => None,
+                    Some(lobe) if lobe.is_dark() => Some(Estimate::ZERO),
                     // No light arrives: all that is sent is more than that, but where spike and facets share it.
                     Some(_) if source.cos == 0.0 && self.shares() => Some(Estimate::ZERO),
                     Some(lobe) if source.cos == 0.0 && lobe.shadowing == Shadowing::None => {
-                        let is_dark = plate.value == 0.0 || lobe.is_dark();
-                        Some(if is_dark { Estimate::ZERO } else { Estimate::INFINITE })
+                        Some(Estimate::INFINITE)
                     }
                     Some(lobe) => {
                         let tolerance = p.accuracy.relative_tolerance.get();

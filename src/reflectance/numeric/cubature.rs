@@ -2,7 +2,7 @@
 //! *Nodes and weights of quadrature formulas*, 1965), whose 7 Gauss points tell the error of each side apart.
 //!
 //! Whoever calls maps its domain to squares on which the integrand is smooth and no feature of it is narrow. Then the
-//! Gauss rule errs far more than Kronrod's, and their difference, which is the error stated, far exceeds the true one.
+//! Gauss rule errs far more than Kronrod's, and their difference, twice which is the error stated, far exceeds the true one.
 
 use super::EPSILON;
 use std::collections::BinaryHeap;
@@ -204,7 +204,7 @@ fn weigh(grid: &Grid, square: usize, low: [f64; 2], high: [f64; 2]) -> Rectangle
         second += kronrod * row_gauss;
         inherited += kronrod * row_error;
     }
-    let errors = [(value - first).abs() * area, (value - second).abs() * area];
+    let errors = [2.0 * (value - first).abs() * area, 2.0 * (value - second).abs() * area];
     Rectangle { square, low, high, value: value * area, errors, inherited: inherited * area }
 }
 
