@@ -14,6 +14,9 @@ use tokio::net::TcpListener;
 #[global_allocator]
 static ALLOCATOR: tikv_jemallocator::Jemalloc = tikv_jemallocator::Jemalloc;
 
+/// Connections that may wait to be accepted, if the system allows as many.
+const BACKLOG: i32 = 4096;
+
 /// The exit code of a configuration that cannot be served.
 const UNUSABLE: u8 = 2;
 
@@ -48,7 +51,11 @@ async fn listen(config: &Config) -> ExitCode {
         Ok(service) => service,
         Err(reason) => return fail(&reason),
     };
-    let listener = match TcpListener::bind(&config.listen).await {
+    let bound = TcpListener::bind(&config.listen).await;
+    // Anew with a longer queue: where it is full, clients wait for seconds or are forgotten.
+    let queued = bound
+        .and_then(|listener| rustix::net::listen(&listener, BACKLOG).map(|()| listener).map_err(Into::into));
+    let listener = match queued {
         Ok(listener) => listener,
         Err(error) => {
             let reason = "set by --listen or REFLECTANCE_LISTEN; see --help";

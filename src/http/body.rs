@@ -54,6 +54,8 @@ impl<T: Wire + Send + 'static> FromRequest<App> for JsonBody<T> {
 /// A value read from a JSON body, or from columns in the body and the rest in the query.
 pub(super) struct JsonOrColumns<T> {
     pub(super) value: T,
+    /// Of the body.
+    pub(super) format: Format,
     /// As that of [`JsonBody`].
     pub(super) turn: Option<Turn>,
 }
@@ -75,7 +77,7 @@ impl<T: WireObject + Wire + Send + 'static> FromRequest<App> for JsonOrColumns<T
             let columns = decode::columns(format, bytes, &mut reader)?;
             query::read_beside(query, columns, reader)
         });
-        Ok(Self { value: value.await?, turn })
+        Ok(Self { value: value.await?, format, turn })
     }
 }
 

@@ -198,6 +198,42 @@ fn columns_are_the_arrays_of_a_json_request() {
 }
 
 #[test]
+fn tables_repeat_the_angles_unless_they_came_as_binary_columns() {
+    let server = Server::start();
+    let columns = [("theta_i_deg", vec![10.0, 20.0]), ("theta_r_deg", vec![20.0, 10.0])];
+    let (binary, text) = (stream(&[columns.to_vec()]), b"theta_i_deg,theta_r_deg\n10,20\n20,10\n".to_vec());
+    let with = |kind: &str, accept: &str, sent: &Vec<u8>, more: &str| {
+        let response = post(&server, &format!("/v1/radiance?{QUERY}{more}"), kind, accept, sent.clone());
+        assert_eq!(response.status(), 200);
+        let bytes = response.bytes().unwrap();
+        let columns = match accept {
+            ARROW => arrow_columns(&bytes),
+            NPY => npy_columns(&bytes),
+            _ => csv_columns(&bytes),
+        };
+        assert!(columns.iter().all(|(_, numbers)| numbers.len() == 2));
+        columns.iter().filter(|(name, _)| name.ends_with("_deg")).count()
+    };
+    for accept in [ARROW, NPY, CSV] {
+        assert_eq!(with(ARROW, accept, &binary, ""), 0, "{accept}");
+        assert_eq!(with(ARROW, accept, &binary, "&angles=true"), 3, "{accept}");
+        assert_eq!(with(CSV, accept, &text, ""), 3, "{accept}");
+        assert_eq!(with(CSV, accept, &text, "&angles=false"), 0, "{accept}");
+    }
+    let link =
+        "/v1/diagrams?model=lambertian&diffuse_albedo=0.5&sweep=theta_i_deg&from_deg=0&to_deg=90&at_deg=0";
+    let tag = |link: &str| {
+        let response = server.request("GET", link).header("accept", CSV).send().unwrap();
+        (response.headers()["etag"].clone(), csv_columns(&response.bytes().unwrap()).len())
+    };
+    let (plain, said, without) =
+        (tag(link), tag(&format!("{link}&angles=true")), tag(&format!("{link}&angles=false")));
+    assert_eq!(plain, said);
+    assert_ne!(plain.0, without.0);
+    assert_eq!(plain.1 - without.1, 3);
+}
+
+#[test]
 fn what_is_wrong_with_query_and_columns_is_said_at_once() {
     let server = Server::start();
     let path = "/v1/radiance?model=torrance_sparrow&facet_slope_deg=-1&theta_i_deg=5&glitter=1";

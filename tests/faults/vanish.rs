@@ -46,11 +46,11 @@ fn a_client_that_leaves_takes_its_work_along() {
         ("the same by the full series", &get(&exhaustive, "accept: text/csv\r\n"), 200),
     ] {
         let mut taken: Vec<_> =
-            (0..5).map(|_| leave(&service, request, Duration::from_millis(after))).collect();
+            (0..3).map(|_| leave(&service, request, Duration::from_millis(after))).collect();
         taken.sort_unstable();
         println!("after a client left {what}, processor time in all: {taken:.1?}");
         // The machine is shared: the median.
-        assert!(taken[2] < ALLOWED, "{what}: {taken:?}");
+        assert!(taken[1] < ALLOWED, "{what}: {taken:?}");
     }
     service.lives();
 }

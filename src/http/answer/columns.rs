@@ -37,6 +37,14 @@ pub(super) struct Stretch {
     pub(super) tally: Tally,
 }
 
+impl Stretch {
+    /// Whether a column is the total to the bit, as that of a component is which is alone: it is not written twice.
+    pub(super) fn is_total(&self, column: usize) -> bool {
+        let [total, other] = [&self.numbers[0], &self.numbers[column]];
+        total.len() == other.len() && total.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits())
+    }
+}
+
 /// Totals and components, then their logarithms.
 fn numbers(
     total: Vec<f64>,

@@ -8,6 +8,7 @@ use crate::http::compute::job::Job;
 use crate::http::problem::Problem;
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::evaluate::Tally;
+use axum::body::Bytes;
 use futures_util::{StreamExt as _, pin_mut};
 use std::sync::Arc;
 
@@ -27,8 +28,19 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
         let curve = work.prepare(index)?;
         let stretch = work.stretch(&curve, 0..work.points(), || false)?;
         begin_curve(&curve, index, &mut text);
-        for (name, numbers) in names(work, &curve).zip(&stretch.numbers) {
-            text.list(name, |text| text.numbers(numbers, true));
+        let mut total = 0..0;
+        for (column, (name, numbers)) in names(work, &curve).zip(&stretch.numbers).enumerate() {
+            text.list(name, |text| {
+                let begin = text.0.len();
+                if column > 0 && stretch.is_total(column) {
+                    text.repeat(total.clone());
+                } else {
+                    text.numbers(numbers, true);
+                }
+                if column == 0 {
+                    total = begin..text.0.len();
+                }
+            });
         }
         if let Some(method) = &stretch.method {
             text.list("method", |text| text.methods(method, true));
@@ -78,6 +90,11 @@ pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
 /// Numbers of an axis that are written at a time.
 const AT_A_TIME: usize = 16 << 10;
 
+/// The text of a total is kept, in case that a component is the same, for so many rows.
+const KEPT_ROWS: usize = 1 << 20;
+/// Numbers that are written at a time: about a millisecond.
+const NUMBERS: usize = 32 << 10;
+
 /// One curve: the total as it is evaluated; the other columns are kept until it is out.
 async fn stream_curve(work: &Arc<Work>, curve: &Curve, text: &mut Text, output: &Output) -> Result<(), End> {
     let mut names = names(work, curve);
@@ -85,32 +102,52 @@ async fn stream_curve(work: &Arc<Work>, curve: &Curve, text: &mut Text, output: 
     text.push("[");
     output.send(text.take()).await?;
     let mut kept: Vec<Stretch> = Vec::new();
+    // The total's text, as long as the first component has the same.
+    let mut repeated = (work.points() <= KEPT_ROWS).then(Vec::new);
     let mut tally = Tally::default();
     {
-        let evaluated = output.run_all(work.pieces().map(|range| {
+        let evaluated = output.run_all(work.pieces_of_a_column().map(|range| {
             let (work, curve) = (Arc::clone(work), curve.clone());
             move |job: &Job| {
                 let first = range.start == 0;
                 let mut stretch = work.stretch(&curve, range, || job.is_stopped())?;
                 let mut text = Text::default();
+                let is_alone = stretch.is_total(1);
                 text.numbers(&std::mem::take(&mut stretch.numbers[0]), first);
-                Ok::<_, Problem>((text, stretch))
+                Ok::<_, Problem>((Bytes::from(text.0), stretch, is_alone))
             }
         }));
         pin_mut!(evaluated);
         while let Some(part) = evaluated.next().await {
-            let (text, stretch) = part??;
+            let (text, stretch, is_alone) = part??;
             tally.append(&stretch.tally);
             kept.push(stretch);
-            output.send(text.0).await?;
+            if is_alone && let Some(texts) = &mut repeated {
+                texts.push(text.clone());
+            } else {
+                repeated = None;
+            }
+            output.send(text).await?;
         }
     }
     text.push("]");
     for (column, name) in (1..).zip(names) {
         text.name(name);
         text.push("[");
-        let columns = kept.iter_mut().map(|stretch| std::mem::take(&mut stretch.numbers[column]));
-        send_list(output, text, columns, |text, numbers, first| text.numbers(&numbers, first)).await?;
+        if let Some(texts) = repeated.take() {
+            output.send(text.take()).await?;
+            for text in texts {
+                output.send(text).await?;
+            }
+        } else {
+            let columns = kept.iter_mut().map(|stretch| std::mem::take(&mut stretch.numbers[column]));
+            let write = |text: &mut Text, columns: Vec<Vec<f64>>, first| {
+                for (place, numbers) in columns.iter().enumerate() {
+                    text.numbers(numbers, first && place == 0);
+                }
+            };
+            send_list(output, text, together(columns), write).await?;
+        }
         text.push("]");
     }
     if kept.iter().all(|stretch| stretch.method.is_some()) {
@@ -140,6 +177,21 @@ async fn stream_curve(work: &Arc<Work>, curve: &Curve, text: &mut Text, output: 
     }
     text.push("]");
     Ok(())
+}
+
+/// As many columns together as are written at a time.
+fn together(mut columns: impl Iterator<Item = Vec<f64>>) -> impl Iterator<Item = Vec<Vec<f64>>> {
+    std::iter::from_fn(move || {
+        let mut numbers = 0;
+        let mut group = Vec::new();
+        while numbers < NUMBERS
+            && let Some(column) = columns.next()
+        {
+            numbers += column.len();
+            group.push(column);
+        }
+        (!group.is_empty()).then_some(group)
+    })
 }
 
 /// Sends what is written so far and then a list, whose parts are written side by side.

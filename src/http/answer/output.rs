@@ -43,11 +43,12 @@ impl From<Problem> for End {
 
 impl Output {
     /// Sends a part.
-    pub(super) async fn send(&self, part: Vec<u8>) -> Result<(), End> {
+    pub(super) async fn send(&self, part: impl Into<Bytes>) -> Result<(), End> {
+        let part = part.into();
         if part.is_empty() {
             return Ok(());
         }
-        self.parts.send(Ok(part.into())).await.map_err(|_| End::Unwanted)
+        self.parts.send(Ok(part)).await.map_err(|_| End::Unwanted)
     }
 
     /// Does a piece of the work on the pool.

@@ -60,7 +60,7 @@ pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -
     output.send(format.head(&table.head)?).await?;
     let pieces = (0..work.curves()).flat_map(|index| {
         let (work, table) = (Arc::clone(&work), Arc::clone(&table));
-        work.pieces().map(move |range| {
+        work.pieces(format).map(move |range| {
             let (work, table) = (Arc::clone(&work), Arc::clone(&table));
             move |job: &Job| table.rows(&work, &table.curves[index], range, || job.is_stopped())
         })
@@ -88,6 +88,7 @@ impl Table {
         let mut columns: Vec<Heading> = angles
             .map(|name| (name, "degrees"))
             .into_iter()
+            .filter(|_| work.has_angles)
             .chain(names)
             .map(|(name, unit)| Heading { name, unit, kind: Kind::Number })
             .collect();
@@ -115,13 +116,12 @@ impl Table {
         range: Range<usize>,
         is_over: impl Fn() -> bool,
     ) -> Result<Vec<u8>, Problem> {
-        let stretch = work.stretch(curve, range.clone(), &is_over)?;
+        let mut stretch = work.stretch(curve, range.clone(), &is_over)?;
         if is_over() {
             // Nobody waits for it, and it may have holes.
             return Ok(Vec::new());
         }
         let names = headings(curve.components(), work.quantity(), work.output());
-        let angles = work.angles(curve, range.clone());
         let texts: Option<Vec<&'static str>> = match (&stretch.method, &stretch.delta_on) {
             (Some(methods), _) => Some(methods.iter().map(|method| method.name()).collect()),
             (None, Some(delta_on)) => {
@@ -129,23 +129,26 @@ impl Table {
             }
             (None, None) => None,
         };
-        let mut columns: Vec<Cells> = angles
-            .iter()
-            .map(|angle| match angle {
-                AngleColumn::One(angle) => Cells::Number(*angle),
-                AngleColumn::Each(angles) => Cells::Numbers(angles),
-            })
-            .collect();
+        let mut columns: Vec<Cells> = Vec::with_capacity(self.head.columns.len());
+        if work.has_angles {
+            columns.extend(work.angles(curve, range.clone()).into_iter().map(|angle| match angle {
+                AngleColumn::One(angle) => Cells::Number(angle),
+                AngleColumn::Each(angles) => Cells::Numbers(angles.into()),
+            }));
+        }
         for heading in &self.head.columns[columns.len()..] {
             let place = names.iter().position(|(name, _)| *name == heading.name);
             columns.push(match (heading.kind, place, &texts) {
-                (Kind::Number, Some(place), _) => Cells::Numbers(&stretch.numbers[place]),
+                (Kind::Number, Some(place), _) => {
+                    // No two columns have one name.
+                    Cells::Numbers(std::mem::take(&mut stretch.numbers[place]).into())
+                }
                 (Kind::Text { .. }, _, Some(texts)) => Cells::Names(texts),
                 _ => Cells::Absent,
             });
         }
         let mut bytes = Vec::new();
-        self.format.rows(&self.head, &Rows { count: range.len(), columns }, &mut bytes)?;
+        self.format.rows(&self.head, Rows { count: range.len(), columns }, &mut bytes)?;
         Ok(bytes)
     }
 }

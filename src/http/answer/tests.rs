@@ -82,7 +82,7 @@ fn parts_add_up_to_the_answer_made_at_once() {
     for subject in subjects() {
         for over in overs() {
             let work = Work::new(subject.clone(), over);
-            assert!(work.pieces().count() > 1);
+            assert!(work.pieces_of_a_column().count() > 1);
             let at_once = json::whole(&work).unwrap();
             assert!(serde_json::from_slice::<serde_json::Value>(&at_once).is_ok());
             assert!(runtime.block_on(streamed(&app, &work, None)) == at_once, "{subject:?}");

@@ -6,6 +6,7 @@ use crate::http::problem::Problem;
 use crate::reflectance::evaluate::{EvaluatedBy, Tally};
 use crate::reflectance::findings::{Diagnostic, Warning};
 use serde::Serialize;
+use std::ops::Range;
 
 /// Bytes of a number with its comma: 17 digits, a point, a sign and an exponent at most.
 const LONGEST_NUMBER: usize = 26;
@@ -58,6 +59,11 @@ impl Text {
             // JSON has no infinities and no NaN: a diagnostic says why.
             self.push(if number.is_finite() { buffer.format_finite(number) } else { "null" });
         }
+    }
+
+    /// What was written from one place to another, once more.
+    pub(super) fn repeat(&mut self, written: Range<usize>) {
+        self.0.extend_from_within(written);
     }
 
     /// The names of methods, likewise.

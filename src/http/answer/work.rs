@@ -3,6 +3,7 @@
 use super::columns::Stretch;
 use crate::http::app::Limits;
 use crate::http::edge::Meter;
+use crate::http::encode::rows::RowFormat;
 use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
@@ -18,7 +19,7 @@ use std::sync::Arc;
 const EXPONENTIAL: f64 = 3.5;
 /// Nanoseconds of a direction of a linear model.
 const LINEAR: f64 = 400.0;
-/// Nanoseconds of one number in an answer, written as text.
+/// Nanoseconds of one number in JSON.
 const NUMBER: f64 = 30.0;
 /// Nanoseconds of a piece of work for the pool: a change of threads costs a fortieth of it.
 const PIECE: f64 = 1e6;
@@ -31,6 +32,8 @@ const MOST_ROWS: usize = 16 << 10;
 pub(crate) struct Work {
     pub(super) subject: Subject,
     pub(super) over: Over,
+    /// Whether tables begin with the columns of the angles.
+    pub(crate) has_angles: bool,
     /// Counts what is evaluated.
     pub(super) meter: Meter,
 }
@@ -66,7 +69,7 @@ pub(super) enum Model {
 
 impl Work {
     pub(crate) fn new(subject: Subject, over: Over) -> Self {
-        Self { subject, over, meter: Meter::default() }
+        Self { subject, over, has_angles: true, meter: Meter::default() }
     }
 
     pub(super) fn rows(&self) -> usize {
@@ -200,19 +203,32 @@ impl Work {
     }
 
     /// Nanoseconds of one row, before what it requires is known: good to a factor of two.
-    pub(super) fn nanoseconds_a_row(&self) -> f64 {
+    pub(super) fn nanoseconds_a_row(&self, format: Option<RowFormat>) -> f64 {
         let numbers = if self.output().log10 { 8.0 } else { 4.0 };
-        let evaluation = match &self.subject {
-            Subject::Scene { scene, output, .. } => EXPONENTIAL * expected_cost(scene, *output),
-            Subject::Linear { .. } => LINEAR,
-        };
-        evaluation + NUMBER * numbers
+        self.evaluation() + numbers * format.map_or(NUMBER, RowFormat::nanoseconds_a_number)
     }
 
-    /// The ranges of a curve's points that are about a millisecond of work each.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = Range<usize>> + Send + use<> {
+    /// Of it, those of the evaluation.
+    fn evaluation(&self) -> f64 {
+        match &self.subject {
+            Subject::Scene { scene, output, .. } => EXPONENTIAL * expected_cost(scene, *output),
+            Subject::Linear { .. } => LINEAR,
+        }
+    }
+
+    /// The ranges of a curve's points that are about a millisecond of work each, if whole rows are made of them.
+    pub(super) fn pieces(&self, format: RowFormat) -> impl Iterator<Item = Range<usize>> + Send + use<> {
+        self.ranges(self.nanoseconds_a_row(Some(format)))
+    }
+
+    /// The same if they are evaluated and one column is written.
+    pub(super) fn pieces_of_a_column(&self) -> impl Iterator<Item = Range<usize>> + Send + use<> {
+        self.ranges(self.evaluation() + NUMBER)
+    }
+
+    fn ranges(&self, nanoseconds_a_row: f64) -> impl Iterator<Item = Range<usize>> + Send + use<> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped at once")]
-        let piece = ((PIECE / self.nanoseconds_a_row()) as usize).clamp(LEAST_ROWS, MOST_ROWS);
+        let piece = ((PIECE / nanoseconds_a_row) as usize).clamp(LEAST_ROWS, MOST_ROWS);
         let points = self.points();
         (0..points).step_by(piece).map(move |first| first..points.min(first + piece))
     }

@@ -39,6 +39,7 @@ impl Hash for DiagramRequest {
     fn hash<H: Hasher>(&self, state: &mut H) {
         let quantity = self.quantity.unwrap_or(Quantity::Radiance).name();
         (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene.0).hash(state);
+        OutputWire::angles(self.output.as_ref()).unwrap_or(true).hash(state);
     }
 }
 
@@ -96,11 +97,13 @@ pub(crate) async fn diagram(
 
 async fn draw(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result<Response, Problem> {
     let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
+    let angles = OutputWire::angles(output.as_ref());
     let subject = Subject::Scene {
         scene: Box::new(scene),
         quantity: quantity.unwrap_or(Quantity::Radiance),
         output: OutputWire::chosen(output),
     };
-    let work = Work::new(subject, Over::Sweep(Box::new(sweep)));
+    let mut work = Work::new(subject, Over::Sweep(Box::new(sweep)));
+    work.has_angles = angles.unwrap_or(true);
     answer::respond(call, turn, work).await
 }

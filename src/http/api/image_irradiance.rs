@@ -299,12 +299,15 @@ pub(crate) async fn image_irradiance(
     let work = match request {
         ImageRequest::Camera { request, factor } => {
             let RadianceRequest { geometry, output, scene } = *request;
+            let angles = OutputWire::angles(output.as_ref());
             let subject = Subject::Scene {
                 scene: Box::new(scene.0),
                 quantity: Quantity::ImageIrradiance { factor },
                 output: OutputWire::chosen(output),
             };
-            Work::new(subject, Over::Directions(Box::new(geometry.0)))
+            let mut work = Work::new(subject, Over::Directions(Box::new(geometry.0)));
+            work.has_angles = angles.unwrap_or(true);
+            work
         }
         ImageRequest::Linear { scene, directions, log10 } => {
             let subject = Subject::Linear { scene: Arc::new(scene), log10 };

@@ -5,7 +5,6 @@ use super::responses::PostProblems;
 use super::scene::CheckedScene;
 use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonOrColumns;
-use crate::http::compute::admission::Turn;
 use crate::http::decode::OBJECT;
 use crate::http::encode::rows::Binary;
 use crate::http::input::node::Node;
@@ -13,6 +12,7 @@ use crate::http::input::object::{WireObject, documented_parameters, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::AnglesWire;
 use crate::http::input::wire::{Parameter, Schemas, Wire};
+use crate::http::negotiate::Format;
 use crate::http::problem::{Code, Problem};
 use crate::reflectance::directions::{Angles, DirectionAngle, Directions, DirectionsError};
 use crate::reflectance::evaluate::{Output, Quantity};
@@ -45,6 +45,10 @@ object! {
         log10: Option<bool>,
         /// Adds the method and the roughness g of each direction. False when absent or null.
         per_direction: Option<bool>,
+        /// Whether a table (CSV, Arrow, npy) has the columns of angles. When absent or null: true, but for directions that
+        /// came as columns of Arrow or npy: the answer's rows are theirs, and repeating them would take longer than
+        /// evaluating them.
+        angles: Option<bool>,
     }
 }
 
@@ -53,6 +57,11 @@ impl OutputWire {
     pub(crate) fn chosen(wire: Option<Self>) -> Output {
         let (log10, per_direction) = wire.map_or((None, None), |wire| (wire.log10, wire.per_direction));
         Output { log10: log10.unwrap_or(false), per_direction: per_direction.unwrap_or(false) }
+    }
+
+    /// Whether tables have the columns of angles, if it was said.
+    pub(crate) fn angles(wire: Option<&Self>) -> Option<bool> {
+        wire.and_then(|wire| wire.angles)
     }
 }
 
@@ -182,9 +191,9 @@ impl IntoParams for BesideColumns {
 )]
 pub(crate) async fn radiance(
     call: Call,
-    JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
+    request: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    answer(call, Quantity::Radiance, turn, request).await
+    answer(call, Quantity::Radiance, request).await
 }
 
 /// BRDF f_r = L_r/I_s (3) by component.
@@ -214,22 +223,20 @@ pub(crate) async fn radiance(
         PostProblems
     )
 )]
-pub(crate) async fn brdf(
-    call: Call,
-    JsonOrColumns { value: request, turn }: JsonOrColumns<RadianceRequest>,
-) -> Result<Response, Problem> {
-    answer(call, Quantity::Brdf, turn, request).await
+pub(crate) async fn brdf(call: Call, request: JsonOrColumns<RadianceRequest>) -> Result<Response, Problem> {
+    answer(call, Quantity::Brdf, request).await
 }
 
 async fn answer(
     call: Call,
     quantity: Quantity,
-    turn: Option<Turn>,
-    request: RadianceRequest,
+    JsonOrColumns { value: request, format, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
         request;
+    let angles = OutputWire::angles(output.as_ref());
     let subject = Subject::Scene { scene: Box::new(scene), quantity, output: OutputWire::chosen(output) };
-    let work = Work::new(subject, Over::Directions(Box::new(directions)));
+    let mut work = Work::new(subject, Over::Directions(Box::new(directions)));
+    work.has_angles = angles.unwrap_or(!matches!(format, Format::Arrow | Format::Npy));
     answer::respond(call, turn, work).await
 }

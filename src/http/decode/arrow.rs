@@ -4,7 +4,7 @@
 //! held against the bytes that arrived. Types that no column can have end the reading before the first batch.
 
 use super::scalar::{ACCEPTED, Scalar};
-use super::{Column, Notes};
+use super::{Column, Notes, wanted};
 use crate::http::input::node::Node;
 use crate::http::problem::Code;
 use arrow_ipc::{Endianness, Field, Message, MessageHeader, Precision, RecordBatch, Schema, Type};
@@ -153,6 +153,7 @@ fn append(
     };
     let total = length.saturating_add(count);
     for (index, (column, scalar)) in columns.iter_mut().enumerate() {
+        wanted()?;
         let node = nodes.get(index);
         if node.length() != batch.length() {
             return Err("the columns of a record batch differ in length".to_owned());

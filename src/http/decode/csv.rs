@@ -1,6 +1,6 @@
 //! Columns as CSV: RFC 4180, the first line their names, in any order.
 
-use super::{Column, Notes};
+use super::{BETWEEN_LOOKS, Column, Notes, wanted};
 use crate::http::input::node::{Node, excerpt};
 use csv::{ByteRecord, Error, ErrorKind, ReaderBuilder};
 
@@ -24,6 +24,9 @@ pub(super) fn columns(bytes: &[u8], most: usize, notes: &mut Notes) -> Result<Ve
             }
         }
         length += 1;
+        if length.is_multiple_of(BETWEEN_LOOKS) {
+            wanted()?;
+        }
     }
     let mut columns: Vec<Column> = columns.into_iter().flatten().collect();
     if length > most {

@@ -12,6 +12,7 @@ mod scalar;
 #[cfg(test)]
 mod tests;
 
+use super::compute::is_abandoned;
 use super::input::node::{Array, Node, excerpt};
 use super::input::reader::Reader;
 use super::negotiate::Format;
@@ -100,6 +101,14 @@ pub(crate) fn columns(format: Format, bytes: &[u8], reader: &mut Reader) -> Resu
         let media_type = format.media_type();
         Problem::new(Kind::MalformedColumns, format!("the body is not {media_type}: {detail}"))
     })
+}
+
+/// Rows between two looks at whether anybody still waits.
+const BETWEEN_LOOKS: usize = 4096;
+
+/// Ends the reading of a body whose client has left.
+fn wanted() -> Result<(), String> {
+    if is_abandoned() { Err("nobody waits for it".to_owned()) } else { Ok(()) }
 }
 
 /// What is wrong with columns as a whole, noted where JSON has them.

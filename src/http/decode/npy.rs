@@ -2,7 +2,7 @@
 
 use super::npy_header::{self, Layout};
 use super::scalar::{ACCEPTED, Scalar};
-use super::{Column, NAMES, Notes};
+use super::{Column, NAMES, Notes, wanted};
 use crate::http::input::node::excerpt;
 use crate::http::problem::Code;
 
@@ -34,6 +34,7 @@ pub(super) fn columns(bytes: &[u8], most: usize, notes: &mut Notes) -> Result<Ve
         return Err(format!("it has {found} bytes of records: expected {length} records of {record} bytes"));
     }
     for field in &mut fields {
+        wanted()?;
         if length > most {
             field.column.only_length(length);
         } else {

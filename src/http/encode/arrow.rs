@@ -19,11 +19,11 @@ pub(super) fn head(head: &Head) -> Result<Vec<u8>, Problem> {
         .map_err(|error| Problem::unwritten(&error))
 }
 
-pub(super) fn rows(head: &Head, rows: &Rows, out: &mut Vec<u8>) -> Result<(), Problem> {
+pub(super) fn rows(head: &Head, rows: Rows, out: &mut Vec<u8>) -> Result<(), Problem> {
     if rows.columns.len() != head.columns.len() {
         return Err(unfit());
     }
-    let cells = head.columns.iter().zip(&rows.columns);
+    let cells = head.columns.iter().zip(rows.columns);
     let columns = cells.map(|(heading, cells)| column(heading.kind, cells, rows.count)).collect();
     let schema = Arc::new(schema(head));
     let batch = RecordBatch::try_new(Arc::clone(&schema), columns).map_err(|error| refused(&error))?;
@@ -72,9 +72,9 @@ fn field(heading: &Heading) -> Field {
 
 /// A column of the kind that its cells are; one that is not what the head says, or too short, is refused with the
 /// batch.
-fn column(kind: Kind, cells: &Cells, count: usize) -> ArrayRef {
-    match (kind, *cells) {
-        (_, Cells::Numbers(numbers)) => Arc::new(Float64Array::from(numbers.to_vec())),
+fn column(kind: Kind, cells: Cells, count: usize) -> ArrayRef {
+    match (kind, cells) {
+        (_, Cells::Numbers(numbers)) => Arc::new(Float64Array::from(numbers.into_owned())),
         (_, Cells::Number(value)) => Arc::new(Float64Array::from(vec![value; count])),
         (_, Cells::Names(names)) => Arc::new(StringArray::from_iter_values(names)),
         (_, Cells::Name(name)) => Arc::new(StringArray::from_iter_values(repeat_n(name, count))),

@@ -35,12 +35,12 @@ pub(super) fn rows(rows: &Rows, out: &mut Vec<u8>) -> Result<(), Problem> {
     let mut columns = Vec::with_capacity(rows.columns.len());
     for cells in &rows.columns {
         let mut same = Vec::new();
-        columns.push(match *cells {
+        columns.push(match cells {
             Cells::Numbers(numbers) if numbers.len() == rows.count => Column::Numbers(numbers),
             Cells::Names(names) if names.len() == rows.count => Column::Names(names),
             Cells::Numbers(_) | Cells::Names(_) => return Err(unfit()),
             Cells::Number(value) => {
-                number(value, &mut same);
+                number(*value, &mut same);
                 Column::Same(same)
             }
             Cells::Name(name) => {
@@ -109,7 +109,7 @@ mod tests {
         let mut out = b"before".to_vec();
         let columns = vec![
             Cells::Name("a \"b\", c"),
-            Cells::Numbers(&[0.1, f64::NAN, -1e-300]),
+            Cells::Numbers(vec![0.1, f64::NAN, -1e-300].into()),
             Cells::Absent,
             Cells::Names(&["uniform", "", "series"]),
         ];
@@ -118,7 +118,7 @@ mod tests {
             \"a \"\"b\"\", c\",,,\r\n\
             \"a \"\"b\"\", c\",-1e-300,,series\r\n";
         assert_eq!(str::from_utf8(&out).unwrap(), expected);
-        let short = Rows { count: 2, columns: vec![Cells::Numbers(&[1.0])] };
+        let short = Rows { count: 2, columns: vec![Cells::Numbers(vec![1.0].into())] };
         assert!(rows(&short, &mut out).is_err());
         // Of a line of one empty field nothing is left but its end.
         out.clear();

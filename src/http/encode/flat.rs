@@ -4,6 +4,7 @@ use super::rows::{Cells, Head, Heading, Kind, RowFormat, Rows};
 use crate::http::problem::Problem;
 use crate::reflectance::evaluate::EvaluatedBy;
 use crate::reflectance::table::{Curve, Table};
+use std::borrow::Cow;
 
 /// Tables of one kind. `labelled` adds a column that tells curves apart which differ by more than the fixed angle.
 /// What another table has and this one has not is absent.
@@ -66,14 +67,14 @@ fn rows(
     let cells = |heading: &Heading| match heading.name {
         "label" => Cells::Name(&curve.label),
         "method" => methods.as_deref().map_or(Cells::Absent, Cells::Names),
-        name if name == table.axis.name => Cells::Numbers(&table.axis.values),
+        name if name == table.axis.name => Cells::Numbers(Cow::Borrowed(&table.axis.values)),
         name if Some(name) == table.fixed => curve.at_deg.map_or(Cells::Absent, Cells::Number),
         "phi_r_deg" => Cells::Number(table.phi_r_deg),
         name => {
             let column = curve.columns.iter().find(|column| column.name == name);
-            column.map_or(Cells::Absent, |column| Cells::Numbers(&column.values))
+            column.map_or(Cells::Absent, |column| Cells::Numbers(Cow::Borrowed(&column.values)))
         }
     };
     let columns = head.columns.iter().map(cells).collect();
-    format.rows(head, &Rows { count: table.axis.values.len(), columns }, out)
+    format.rows(head, Rows { count: table.axis.values.len(), columns }, out)
 }

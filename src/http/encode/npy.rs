@@ -69,16 +69,16 @@ fn fill<'a>(
     places: impl Iterator<Item = &'a mut [u8]>,
     count: usize,
 ) -> Result<(), Problem> {
-    match (kind, *cells) {
+    match (kind, cells) {
         (Kind::Number, Cells::Numbers(numbers)) if numbers.len() == count => {
-            for (place, number) in places.zip(numbers) {
+            for (place, number) in places.zip(numbers.iter()) {
                 place.copy_from_slice(&number.to_le_bytes());
             }
         }
         (Kind::Number, Cells::Number(number)) => copy_to_all(&number.to_le_bytes(), places),
         (Kind::Number, Cells::Absent) => copy_to_all(&f64::NAN.to_le_bytes(), places),
         (Kind::Text { .. }, Cells::Names(names)) if names.len() == count => {
-            for (place, name) in places.zip(names) {
+            for (place, name) in places.zip(*names) {
                 text(name, place)?;
             }
         }

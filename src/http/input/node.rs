@@ -1,5 +1,6 @@
 //! JSON as a tree, arrays of numbers packed.
 
+use super::plain;
 use crate::http::compute::is_abandoned;
 use crate::reflectance::bounds;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -71,14 +72,17 @@ pub(crate) struct Malformed {
 }
 
 /// Values that are not numbers in an array, in one body: a request needs a few dozen; each costs fifty times its bytes.
-const MOST_NODES: usize = 4096;
+pub(super) const MOST_NODES: usize = 4096;
 
 /// Elements of an array between two looks at whether anybody still waits.
-const BETWEEN_LOOKS: usize = 4096;
+pub(super) const BETWEEN_LOOKS: usize = 4096;
 
 /// Reads JSON. A number beyond f64 (1e400) arrives as the string of its digits, so that it is reported as
 /// the error of a field like any other.
 pub(crate) fn parse(text: &[u8]) -> Result<Node, Malformed> {
+    if let Some(node) = plain::parse(text, MOST_NODES) {
+        return Ok(node);
+    }
     match parse_strictly(text) {
         Err(error) if error.is_syntax() && error.to_string().starts_with("number out of range") => {
             // First with numbers of the same length in their places: whatever else is wrong with the text has
@@ -99,7 +103,7 @@ pub(crate) fn parse(text: &[u8]) -> Result<Node, Malformed> {
     }
 }
 
-fn parse_strictly(text: &[u8]) -> Result<Node, serde_json::Error> {
+pub(super) fn parse_strictly(text: &[u8]) -> Result<Node, serde_json::Error> {
     let budget = Cell::new(MOST_NODES);
     let mut deserializer = serde_json::Deserializer::from_slice(text);
     let node = Seed(&budget).deserialize(&mut deserializer)?;

@@ -1,11 +1,12 @@
 //! How the core's own types are read.
 
-use super::node::Node;
+use super::node::{BETWEEN_LOOKS, Node};
 use super::object::{WireObject, object};
 use super::reader::{ElementErrors, Fields, Reader};
 use super::wire::{
     Parameter, Schemas, Wire, mismatch, named, named_schema, not_a_number, read_named, text_number,
 };
+use crate::http::compute::is_abandoned;
 use crate::http::decode::OBJECT;
 use crate::http::problem::Code;
 use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
@@ -144,6 +145,10 @@ fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec
         return reader.fail(Code::TooMany, detail);
     }
     let mut numbers = array.numbers;
+    // Without a branch, so that the loop becomes vector instructions.
+    if array.others.is_empty() && numbers.iter().fold(true, |all, &number| all & Q::BOUNDS.contains(number)) {
+        return Some(numbers);
+    }
     let mut errors = ElementErrors::default();
     // The elements that were noted already.
     let mut others = Vec::new();
@@ -160,6 +165,10 @@ fn many<Q: Quantity>(node: Node, most: usize, reader: &mut Reader) -> Option<Vec
     }
     let mut others = others.into_iter().peekable();
     for (index, value) in numbers.iter_mut().enumerate() {
+        if index.is_multiple_of(BETWEEN_LOOKS) && is_abandoned() {
+            // Nobody reads what is said of it.
+            return None;
+        }
         if others.next_if_eq(&index).is_some() {
             continue;
         }
