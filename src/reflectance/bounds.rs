@@ -87,6 +87,14 @@ pub const SLOPE_RATIO: Bounds = Bounds::new("slope", "", 1e-120, 1e120);
 /// σ_α as (79) can invert it: below 90°/√2.
 pub const FACET_SLOPE_INVERTIBLE: Bounds =
     Bounds::new("facet slope that (79) can invert", "degrees", 1e-12, 63.63961030678927);
+/// σ_h/T of which F′ is averaged over the slopes: beyond, the normals crowd at the horizon.
+pub const SLOPE_AVERAGED: Bounds = Bounds::new("rms height over correlation length", "", 1e-121, 4.0);
+/// The same as a facet slope: (79) takes 58.6° to σ_h/T = 3.9988.
+pub const FACET_SLOPE_AVERAGED: Bounds =
+    Bounds::new("facet slope that F′ is averaged over", "degrees", 1e-12, 58.6);
+/// Sources' zeniths, over all curves of a diagram, for which one request averages F′ over the slopes: each takes about a
+/// millisecond.
+pub const MAX_AVERAGED: usize = 500;
 /// Ends of a sweep; a negative zenith lies on the other side of the normal.
 pub const SWEEP_ANGLE: Bounds = Bounds::new("swept zenith angle", "degrees", -90.0, 90.0);
 /// Step of a sweep.

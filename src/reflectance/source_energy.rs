@@ -116,8 +116,8 @@ impl SourceEnergy {
         }
         // The facets that face the source add up to 1 + Λ times what it sees of the plane: nothing to integrate where
         // that suffices.
-        let most =
-            albedo + scattered * lobe.strength() * (1.0 + strain::lambda(theta_i.min(STEEPEST), lobe.width));
+        let incident = strain::lambda(theta_i.min(STEEPEST), lobe.width);
+        let most = albedo + scattered * lobe.strength() * (1.0 + incident);
         if most <= 1.0 + COARSE {
             return (most, again);
         }
@@ -126,6 +126,8 @@ impl SourceEnergy {
                 let seen = match lobe.shadowing {
                     Shadowing::None => 1.0,
                     Shadowing::VGroove => facet.groove(),
+                    Shadowing::Smith => lobe.seen(facet, incident, true),
+                    Shadowing::SmithUncorrelated => lobe.seen(facet, incident, false),
                 };
                 seen * self.reflectance(facet.cos_local)
             });
@@ -181,12 +183,15 @@ impl Lobe {
         if extreme < 90.0 && incident < 0.02 && strain::lambda(extreme, self.width) < 0.05 {
             return 0.0;
         }
-        let leaving = self.slopes().albedo(source, |facet: &Facet| {
-            let view = SinCos { sin: (1.0 - facet.cos_r * facet.cos_r).max(0.0).sqrt(), cos: facet.cos_r };
-            // 1/(1 + Λ_i + Λ_r)
-            1.0 / (incident + 1.0 / smith_visible_roughly(view, self.width))
-        });
+        let leaving = self.slopes().albedo(source, |facet| self.seen(facet, incident, true));
         (1.0 - leaving).max(0.0)
+    }
+
+    /// Smith's G of a facet from Λ_i: 1/(1 + Λ_i + Λ_r), or 1/((1 + Λ_i)(1 + Λ_r)) if not correlated.
+    fn seen(&self, facet: &Facet, incident: f64, correlated: bool) -> f64 {
+        let view = SinCos { sin: (1.0 - facet.cos_r * facet.cos_r).max(0.0).sqrt(), cos: facet.cos_r };
+        let from_there = smith_visible_roughly(view, self.width);
+        if correlated { 1.0 / (incident + 1.0 / from_there) } else { from_there / (1.0 + incident) }
     }
 }
 

@@ -6,10 +6,11 @@ use crate::fresnel::{index, polarization};
 use crate::table::{Exact, Table};
 use reflectance::reflectance::beckmann_spizzichino::RelativeRoughness;
 use reflectance::reflectance::degrees::SinCos;
-use reflectance::reflectance::fresnel_average::{half_vector, mean_plane, slope_average};
+use reflectance::reflectance::fresnel_average::{FINEST, half_vector, mean_plane, slope_average};
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::lobe_series::{self, Method};
 use reflectance::reflectance::numeric::scaled::Scaled;
+use reflectance::reflectance::quantity::{AveragedRatio, Quantity as _};
 use std::sync::LazyLock;
 
 pub(crate) static MEASURED: LazyLock<Measured> =
@@ -37,7 +38,8 @@ fn check(line: &Line<'_>) {
     let mean_plane = mean_plane(&medium, polarization, &geometry);
     let half_vector = half_vector(&medium, polarization, &geometry);
     let ratio = input("sigma_h") / input("T");
-    let average = slope_average(&medium, polarization, incidence, ratio).expect("a ratio that is integrated");
+    let ratio = AveragedRatio::new(ratio).expect("a ratio that is integrated");
+    let average = slope_average(&medium, polarization, incidence, ratio, FINEST);
     let cint = |incidence| condition::mixed(n, k, incidence, h, v);
     let (cint_mean, cint_half) = (cint(incidence), cint(geometry.local_incidence()));
     line.value("FF_mean_plane", mean_plane.value, cint_mean);

@@ -8,8 +8,9 @@ use crate::http::problem::Code;
 use crate::reflectance::albedo::AlbedoScene;
 use crate::reflectance::bounds::{DEFAULT_ALBEDO_TOLERANCE, DEFAULT_TOLERANCE};
 use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::fresnel_average::FresnelAverage;
 use crate::reflectance::numeric::lobe_series::Method;
-use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError};
+use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError, Slopes};
 use crate::reflectance::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
     SpecularScale, Tolerance, Wavelength,
@@ -40,8 +41,14 @@ object! {
         /// add up to the mean plane's.
         specular_scale: Option<SpecularScale>,
         /// How facets hide each other. Absent or null: `none` for Beckmann-Spizzichino, `v_groove` (65) for
-        /// Torrance-Sparrow and the unified model.
+        /// Torrance-Sparrow and the unified model. `smith` is a surface of Gaussian slopes, 1/(1 + Λ_i + Λ_r),
+        /// `smith_uncorrelated` 1/((1 + Λ_i)(1 + Λ_r)); their m is 2σ_h/T, or tan √2σ_α (79) where the lobe has a
+        /// `facet_slope_deg` of its own.
         shadowing: Option<Shadowing>,
+        /// Over what the F of a finite conductor's lobe is averaged, (41): the facets that mirror the source to the
+        /// viewer (`half_vector`, when absent or null), the mean plane (`mean_plane`), or all facets that face the source
+        /// (`slope_average`, for σ_h/T up to 4). The spike always has the mean plane's.
+        fresnel_average: Option<FresnelAverage>,
     }
 }
 
@@ -238,6 +245,13 @@ impl SceneWire {
             model: self.model,
             components: self.components.as_ref().map(|listed| listed.clone().unwrap_or(Listed::Auto)),
             absent: absences.into_iter().filter_map(|(absent, which)| absent.then_some(which)).collect(),
+            slopes: surface.map_or_else(Slopes::default, |s| Slopes {
+                rms_height: s.rms_height_um.flatten(),
+                correlation_length: s.correlation_length_um.flatten(),
+                facet_slope: s.facet_slope_deg.flatten(),
+                shadowing: s.shadowing.flatten(),
+                fresnel_average: s.fresnel_average.flatten(),
+            }),
         }
     }
 
@@ -262,6 +276,7 @@ impl SceneWire {
                 diffuse_albedo: surface.diffuse_albedo?.unwrap_or(Fraction::ZERO),
                 specular_scale: surface.specular_scale?,
                 shadowing: surface.shadowing?,
+                fresnel_average: surface.fresnel_average?,
             },
             illumination: scene::Illumination {
                 wavelength,
@@ -375,6 +390,13 @@ fn note(error: &SceneError, reader: &mut Reader) {
         }
         SceneError::Repeated { position, component } => {
             at_component(*position, Code::Duplicate, format!("{} is named twice", component.name()), reader);
+        }
+        SceneError::Slope { parameter, value, needed_by, accepted } => {
+            let detail = format!("{} {value} is outside: {needed_by} needs {accepted}", accepted.name);
+            let (object, field) = place(*parameter);
+            reader.within(object, |reader| {
+                reader.within(field, |reader| reader.error(Code::OutOfRange, detail));
+            });
         }
         SceneError::NoComponents => reader.within("components", |reader| {
             reader.error(Code::Empty, "the array is empty: expected \"auto\" or at least one component");

@@ -3,6 +3,7 @@
 pub mod cubature;
 pub mod dispatch;
 pub mod elementary;
+pub mod erfc_integral;
 pub mod lobe_series;
 pub mod quadrature;
 pub mod scaled;
