@@ -8,12 +8,12 @@ use crate::reflectance::beckmann_spizzichino::RelativeRoughness;
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::fresnel::{Energies, Energy, Medium, Polarization};
 use crate::reflectance::numeric::EPSILON;
-use crate::reflectance::numeric::cubature::{self, Cubature, Grid, NODES};
+use crate::reflectance::numeric::cubature::{self, Cubature, Goal, Grid, NODES};
 use crate::reflectance::numeric::dispatch::InstructionSet;
 use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES};
 use crate::reflectance::numeric::lobe_series::patches::Tier;
 use crate::reflectance::numeric::lobe_series::{self, LobeSeries, Method};
-use crate::reflectance::shadowing::Shadowing;
+use crate::reflectance::shadowing::ShadowingFunction;
 use core::f64::consts::{PI, SQRT_2};
 
 /// Rectangles at most: a tenth of a second.
@@ -32,7 +32,7 @@ pub(super) struct Lobe {
     pub(super) slopes: Slopes,
     pub(super) medium: Medium,
     pub(super) polarization: Polarization,
-    pub(super) shadowing: Shadowing,
+    pub(super) shadowing: ShadowingFunction,
 }
 
 /// Where its facets come from.
@@ -45,14 +45,17 @@ pub(super) enum Slopes {
 }
 
 impl Lobe {
-    /// ∫ f_r cos θ_r dω_r, without the 1/cos θ_i where there is no shadowing. None as soon as `is_over` says so.
+    /// ∫ f_r cos θ_r dω_r, without the 1/cos θ_i where there is no shadowing, to a tolerance of it and what is `beside` it
+    /// together. None as soon as `is_over` says so.
     pub(super) fn power(
         &self,
         source: SinCos,
         tolerance: f64,
+        beside: f64,
         is_over: impl Fn() -> bool,
     ) -> Option<Cubature> {
-        let kinks = Kinks { grooves: self.shadowing == Shadowing::VGroove, critical: self.critical() };
+        let kinks =
+            Kinks { grooves: self.shadowing == ShadowingFunction::VGroove, critical: self.critical() };
         let (width, end) = self.extent(source);
         let hemisphere = Hemisphere::new(source, width, end, kinks);
         let mut batch = Batch::new();
@@ -62,7 +65,8 @@ impl Lobe {
                 self.fill_angles(&hemisphere, square, grid, sigma_alpha, scale);
             }
         };
-        let whole = cubature::integrate(hemisphere.squares(), tolerance, MOST_RECTANGLES, is_over, fill)?;
+        let goal = Goal { tolerance, beside, most: MOST_RECTANGLES };
+        let whole = cubature::integrate(hemisphere.squares(), goal, is_over, fill)?;
         Some(Cubature { error: whole.error + self.beyond(source), ..whole })
     }
 
@@ -108,7 +112,7 @@ impl Lobe {
 
     /// cos θ′ times the shadowing over cos θ_i is not larger; none where nothing is known.
     fn most_over_cos_i(&self, source: SinCos) -> Option<f64> {
-        if self.shadowing == Shadowing::None {
+        if self.shadowing == ShadowingFunction::None {
             Some(1.0)
         } else {
             (source.cos > 0.0).then_some(1.0 / source.cos)
@@ -132,7 +136,7 @@ impl Lobe {
             Medium::PerfectConductor => Energy::ONE,
             Medium::Index(_) => self.medium.reflectance(ring.local_incidence(facet), self.polarization),
         };
-        if self.shadowing == Shadowing::None {
+        if self.shadowing == ShadowingFunction::None {
             return energy;
         }
         // At the horizon itself there are no viewers.
@@ -142,6 +146,11 @@ impl Lobe {
             0.0
         };
         Energy { value: energy.value * seen, error: energy.error * seen }
+    }
+
+    /// Rounding of what surrounds S or p in ε.
+    fn units(&self) -> f64 {
+        FACTOR_UNITS + self.shadowing.units()
     }
 
     fn fill_angles(
@@ -158,7 +167,7 @@ impl Lobe {
             let density = scale * libm::exp(-0.5 * ratio * ratio);
             // sin α dα = sin² α cos α d ln tan α
             let density = density * ring.slope.sin * ring.slope.sin * ring.slope.cos;
-            let rounding = EPSILON * (FACTOR_UNITS + ALPHA_UNITS * ratio * ratio);
+            let rounding = EPSILON * (self.units() + ALPHA_UNITS * ratio * ratio);
             for j in 0..NODES {
                 let facet = ring.facet(grid.second[j]);
                 let Energy { value, error } = self.reflected(&ring, &facet);
@@ -186,7 +195,9 @@ impl Lobe {
                 points.reflected.push(reflected);
             }
         }
-        for (place, (value, error)) in points.evaluate(method, tier, batch).into_iter().enumerate() {
+        for (place, (value, error)) in
+            points.evaluate(method, tier, batch, self.units()).into_iter().enumerate()
+        {
             grid.values[place / NODES][place % NODES] = value;
             grid.errors[place / NODES][place % NODES] = error;
         }
@@ -204,7 +215,13 @@ struct Points {
 
 impl Points {
     /// Values and the bounds of their errors.
-    fn evaluate(&self, method: Method, tier: &'static Tier, batch: &mut Batch) -> Vec<(f64, f64)> {
+    fn evaluate(
+        &self,
+        method: Method,
+        tier: &'static Tier,
+        batch: &mut Batch,
+        units: f64,
+    ) -> Vec<(f64, f64)> {
         let mut found = Vec::with_capacity(self.g.len());
         for first in (0..self.g.len()).step_by(LANES) {
             let range = first..self.g.len().min(first + LANES);
@@ -222,19 +239,19 @@ impl Points {
                         lobe_series::evaluate(method, g, x)
                     }
                 });
-                found.push(self.at(place, &series));
+                found.push(self.at(place, &series, units));
             }
         }
         found
     }
 
-    fn at(&self, place: usize, series: &LobeSeries) -> (f64, f64) {
+    fn at(&self, place: usize, series: &LobeSeries, units: f64) -> (f64, f64) {
         let (x, factor, Energy { value, error }) =
             (self.x[place], self.factors[place], self.reflected[place]);
         let sent = (series.estimate.value * x).to_f64() * factor;
         let unsure = (series.estimate.error * x).to_f64() * factor;
         let conditions = G_UNITS * series.condition_g + X_UNITS * series.condition_x;
-        let rounding = EPSILON * (FACTOR_UNITS + conditions);
+        let rounding = EPSILON * (units + conditions);
         (sent * value, unsure * (value + error) + sent * (error + rounding * value))
     }
 }

@@ -12,13 +12,17 @@ mod tests;
 
 use super::degrees::SinCos;
 use super::estimate::Estimate;
+use super::fresnel::{Energy, Medium};
+use super::fresnel_average::FresnelAverage;
+use super::fresnel_average::table::{Reflectivity, SlopeAverages};
+use super::geometry::{FacetAngles, Geometry};
 use super::numeric::EPSILON;
 use super::numeric::lobe_series::patches;
 use super::numeric::scaled::Scaled;
 use super::outline::{Outline, Parameter, SceneError};
 use super::quantity::SourceZenith;
 use super::scene::{Component, Model, Scene, SceneParameters};
-use super::shadowing::Shadowing;
+use super::shadowing::ShadowingFunction;
 use super::unified;
 use lobe::{Lobe, Slopes};
 
@@ -84,7 +88,6 @@ impl AlbedoScene {
         let g =
             self.0.relative_roughness().map(|roughness| unified::mirror_g(roughness.height, 1.0, source.cos));
         let mut components = [None; 3];
-        let mut evaluations = 0;
         for &component in self.0.evaluated() {
             components[component.index()] = match component {
                 Component::DiffuseLobe => {
@@ -94,22 +97,15 @@ impl AlbedoScene {
                     let share = Estimate::within(Scaled::exp(-g), EPSILON * (4.0 + G_UNITS * g));
                     share.times(plate.into())
                 }),
-                Component::SpecularLobe => match self.lobe() {
-                    None => None,
-                    Some(lobe) if lobe.is_dark() => Some(Estimate::ZERO),
-                    // No light arrives: all that is sent is more than that, but where spike and facets share it.
-                    Some(_) if source.cos == 0.0 && self.shares() => Some(Estimate::ZERO),
-                    Some(lobe) if source.cos == 0.0 && lobe.shadowing == Shadowing::None => {
-                        Some(Estimate::INFINITE)
-                    }
-                    Some(lobe) => {
-                        let tolerance = p.accuracy.relative_tolerance.get();
-                        let power = lobe.power(source, 0.9 * tolerance, &is_over)?;
-                        evaluations = power.evaluations;
-                        Some(self.over_incident(power.value, power.error, source, g))
-                    }
-                },
+                Component::SpecularLobe => None,
             };
+        }
+        let mut evaluations = 0;
+        if let Some(lobe) = self.lobe().filter(|_| !self.is_closed()) {
+            let beside = Estimate::total(&components).value.to_f64();
+            let (sent, points) = self.sent(&lobe, source, g, beside, is_over)?;
+            components[Component::SpecularLobe.index()] = Some(sent);
+            evaluations = points;
         }
         let total = Estimate::total(&components);
         Some(Albedo {
@@ -128,19 +124,56 @@ impl AlbedoScene {
         p.model == Model::Unified && p.surface.specular_scale.is_none()
     }
 
-    /// The integral with the factors that do not depend on the viewer.
-    fn over_incident(&self, power: f64, error: f64, source: SinCos, g: Option<f64>) -> Estimate {
-        let value = Scaled::new(power);
-        let least = Scaled::new((power - error).max(0.0));
-        let mut sent = Estimate { value, error: Scaled::new(error), least };
+    /// The albedo of the lobe beside that of the others, and the points at which it was taken.
+    fn sent(
+        &self,
+        lobe: &Lobe,
+        source: SinCos,
+        g: Option<f64>,
+        beside: f64,
+        is_over: impl Fn() -> bool,
+    ) -> Option<(Estimate, usize)> {
+        let is_bare = lobe.shadowing == ShadowingFunction::None;
+        if lobe.is_dark() || source.cos == 0.0 && self.shares() {
+            return Some((Estimate::ZERO, 0));
+        }
+        if source.cos == 0.0 && is_bare {
+            // No light arrives, and some is sent.
+            return Some((Estimate::INFINITE, 0));
+        }
+        // What does not depend on the viewer.
+        let mut factor = Estimate::from(self.average(source));
         if self.shares() {
-            let share = g.map_or(1.0, unified::lobe_share);
-            sent = sent.times(Estimate::within(Scaled::new(share), 28.0 * EPSILON));
+            let share = Scaled::new(g.map_or(1.0, unified::lobe_share));
+            factor = factor.times(Estimate::within(share, 28.0 * EPSILON));
         }
-        if self.0.shadowing() == Shadowing::None {
-            sent = sent.scaled_by(Scaled::ONE / Scaled::new(source.cos)).widened(4.0 * EPSILON);
+        if is_bare {
+            factor = factor.scaled_by(Scaled::ONE / Scaled::new(source.cos)).widened(4.0 * EPSILON);
         }
-        sent
+        if factor.value.is_zero() {
+            return Some((factor, 0));
+        }
+        let tolerance = 0.9 * self.0.parameters().accuracy.relative_tolerance.get();
+        let beside = (Scaled::new(beside) / factor.value).to_f64();
+        let power = lobe.power(source, tolerance, beside, is_over)?;
+        let least = Scaled::new((power.value - power.error).max(0.0));
+        let power_sent = Estimate { value: Scaled::new(power.value), error: Scaled::new(power.error), least };
+        Some((power_sent.times(factor), power.evaluations))
+    }
+
+    /// F′ of the lobe where it is the same for all viewers; 1 where it is integrated.
+    fn average(&self, source: SinCos) -> Energy {
+        if self.0.fresnel_average() == FresnelAverage::HalfVector {
+            return Energy::ONE;
+        }
+        let level = Geometry::of_facet(&FacetAngles {
+            source,
+            slope: SinCos { sin: 0.0, cos: 1.0 },
+            azimuth: SinCos { sin: 0.0, cos: 1.0 },
+            cos_local: source.cos,
+            cos_r: source.cos,
+        });
+        Reflectivity::of(&self.0, &SlopeAverages::default()).energy(&level)
     }
 
     fn lobe(&self) -> Option<Lobe> {
@@ -157,9 +190,12 @@ impl AlbedoScene {
         };
         Some(Lobe {
             slopes,
-            medium: p.surface.medium,
+            medium: match self.0.fresnel_average() {
+                FresnelAverage::HalfVector => p.surface.medium,
+                FresnelAverage::MeanPlane | FresnelAverage::SlopeAverage => Medium::PerfectConductor,
+            },
             polarization: p.illumination.polarization,
-            shadowing: self.0.shadowing(),
+            shadowing: self.0.shadowing_function(),
         })
     }
 }

@@ -6,7 +6,7 @@ use crate::reflectance::degrees::SinCos;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::geometry::Geometry;
 use crate::reflectance::numeric::EPSILON;
-use crate::reflectance::numeric::cubature::{self, Cubature, NODES};
+use crate::reflectance::numeric::cubature::{self, Cubature, Goal, NODES};
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::numeric::quadrature::integrate;
 use crate::reflectance::quantity::{
@@ -102,6 +102,7 @@ fn parameters(model: Model, lengths: [f64; 2], tolerance: f64) -> SceneParameter
             diffuse_albedo: Fraction::ZERO,
             specular_scale: None,
             shadowing: Some(Shadowing::None),
+            fresnel_average: None,
         },
         illumination: Illumination {
             wavelength: Some(Wavelength::new(1.0).unwrap()),

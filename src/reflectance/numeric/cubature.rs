@@ -61,6 +61,17 @@ pub struct Cubature {
     pub evaluations: usize,
 }
 
+/// How good an integral is to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Goal {
+    /// Relative to the value and what is beside it.
+    pub tolerance: f64,
+    /// What the integral is a part of, without it.
+    pub beside: f64,
+    /// Rectangles at most.
+    pub most: usize,
+}
+
 /// A rectangle and its share of the integral.
 #[derive(Clone, Copy, Debug)]
 struct Rectangle {
@@ -100,15 +111,14 @@ impl PartialEq for Rectangle {
 
 impl Eq for Rectangle {}
 
-/// ∫∫ `f` over all of so many unit squares together, to a tolerance relative to the value.
+/// ∫∫ `f` over all of so many unit squares together.
 ///
 /// `f` fills a [`Grid`] whose positions are set, of the square of this index; the integrand may not be negative. Halves the
 /// rectangle with the largest error, along the side that errs more, until the errors add up to the tolerance, or to a tenth of
-/// what the values and their sums bring along, or there are `most` rectangles: then the error is what it is. None as soon as `is_over` says so.
+/// what the values and their sums bring along, or there are too many rectangles: then the error is what it is. None as soon as `is_over` says so.
 pub fn integrate(
     squares: usize,
-    tolerance: f64,
-    most: usize,
+    goal: Goal,
     is_over: impl Fn() -> bool,
     mut f: impl FnMut(usize, &mut Grid),
 ) -> Option<Cubature> {
@@ -132,13 +142,13 @@ pub fn integrate(
         // Bounds jump where what they bound changes its form: the rule may take too few of them into account. Each rectangle
         // sums 30 terms, one after the other, and those sums are added up.
         let rest = 2.0 * inherited + EPSILON * (64.0 + rectangles.len() as f64) * value;
-        let is_enough = error <= (tolerance * value).max(0.1 * rest);
+        let aim = (goal.tolerance * (value + goal.beside)).max(0.1 * rest);
         // Infinities and what is not a number cannot be refined.
-        if is_enough || rectangles.len() >= most || !error.is_finite() {
+        if error <= aim || rectangles.len() >= goal.most || !error.is_finite() {
             return Some(Cubature { value, error: error + rest, evaluations: evaluated * NODES * NODES });
         }
         // Those that have to be halved in any case, at once: sums are not formed for each.
-        let share = tolerance * value / (2.0 * rectangles.len() as f64);
+        let share = aim / (2.0 * rectangles.len() as f64);
         let mut halve = Vec::new();
         while let Some(worst) = rectangles.peek().copied() {
             if !halve.is_empty() && worst.error() <= share.max(error / 16.0) {
@@ -210,14 +220,13 @@ fn weigh(grid: &Grid, square: usize, low: [f64; 2], high: [f64; 2]) -> Rectangle
 
 #[cfg(test)]
 mod tests {
-    use super::{Cubature, RULE, integrate};
+    use super::{Cubature, Goal, RULE, integrate};
     use crate::reflectance::numeric::EPSILON;
 
     fn over_squares(tolerance: f64, f: impl Fn(usize, f64, f64) -> f64) -> Cubature {
         integrate(
             2,
-            tolerance,
-            2000,
+            Goal { tolerance, beside: 0.0, most: 2000 },
             || false,
             |square, grid| {
                 for i in 0..super::NODES {
@@ -275,6 +284,6 @@ mod tests {
 
     #[test]
     fn nobody_waits_for_what_is_over() {
-        assert!(integrate(1, 1e-3, 10, || true, |_, _| {}).is_none());
+        assert!(integrate(1, Goal { tolerance: 1e-3, beside: 0.0, most: 10 }, || true, |_, _| {}).is_none());
     }
 }
