@@ -104,8 +104,7 @@ impl Geometry {
         )
     }
 
-    /// From source and facet. Relative error of v/k and its parts below 32 ε and those of the angles; the azimuth's cosine is
-    /// as good as f64 holds it.
+    /// From source and facet. Error of v/k and its parts below 32 ε of their terms and those of the angles.
     pub(super) fn of_facet(angles: &FacetAngles) -> Self {
         let &FacetAngles { source, slope, azimuth, cos_local, .. } = angles;
         let cos_r = angles.cos_r.max(0.0);
@@ -119,9 +118,20 @@ impl Geometry {
         let half = hypotenuse(sin_difference, cos_sum);
         let half_difference = SinCos { sin: sin_difference / half, cos: cos_sum / half };
         let along = source.sin - 2.0 * cos_local * slope.sin * azimuth.cos;
-        let cos_azimuth = if sin_r > 0.0 { (along / sin_r).clamp(-1.0, 1.0) } else { 1.0 };
-        let half_azimuth =
-            SinCos { sin: (0.5 * (1.0 - cos_azimuth)).sqrt(), cos: (0.5 * (1.0 + cos_azimuth)).sqrt() };
+        let across = 2.0 * cos_local * slope.sin * azimuth.sin;
+        let (cos_azimuth, sin_azimuth) = if sin_r > 0.0 {
+            ((along / sin_r).clamp(-1.0, 1.0), (across / sin_r).clamp(0.0, 1.0))
+        } else {
+            (1.0, 0.0)
+        };
+        // The larger of the two by its root, the other by their product.
+        let larger = (0.5 * (1.0 + cos_azimuth.abs())).sqrt();
+        let smaller = 0.5 * sin_azimuth / larger;
+        let half_azimuth = if cos_azimuth < 0.0 {
+            SinCos { sin: larger, cos: smaller }
+        } else {
+            SinCos { sin: smaller, cos: larger }
+        };
         Self {
             cos_i: source.cos,
             sin_i: source.sin,

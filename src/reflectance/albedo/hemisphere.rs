@@ -264,8 +264,14 @@ impl Hemisphere {
             // cos ψ > −cot θ_i cot 2α, and 1 ± that in forms in which nothing cancels.
             least = 0.5 * source.cos / slope.cos;
             lowest = 0.0;
-            let above = libm::sin(2.0 * angle - self.complement).max(0.0);
-            let below = libm::sin(2.0 * angle + self.complement).max(0.0);
+            // sin(2α ∓ 90° ± θ_i), of steep facets by what their slope lacks of 90°.
+            let (above, below) = if slope.sin > slope.cos {
+                let rest = libm::atan2(slope.cos, slope.sin);
+                (2.0 * rest + self.complement, 2.0 * rest - self.complement)
+            } else {
+                (2.0 * angle - self.complement, 2.0 * angle + self.complement)
+            };
+            let (above, below) = (libm::sin(above).max(0.0), libm::sin(below).max(0.0));
             let half = SinCos { sin: below.sqrt(), cos: above.sqrt() };
             let whole = below + above;
             end = 2.0 * libm::atan2(half.sin, half.cos);
