@@ -20,7 +20,7 @@ fn in_range<Q: InRange>(value: f64) -> Q {
 }
 
 /// Lengths in wavelengths, a perfect conductor without shadowing.
-fn conductor(model: Model, height: f64, length: f64) -> SceneParameters {
+pub(crate) fn conductor(model: Model, height: f64, length: f64) -> SceneParameters {
     SceneParameters {
         model,
         surface: Surface {
@@ -44,16 +44,16 @@ fn conductor(model: Model, height: f64, length: f64) -> SceneParameters {
     }
 }
 
-fn to_tolerance(parameters: &SceneParameters, tolerance: f64) -> AlbedoScene {
+pub(crate) fn to_tolerance(parameters: &SceneParameters, tolerance: f64) -> AlbedoScene {
     let accuracy = Accuracy { relative_tolerance: in_range(tolerance), ..parameters.accuracy };
     AlbedoScene::new(SceneParameters { accuracy, ..parameters.clone() }).expect("a scene")
 }
 
-fn at(scene: &AlbedoScene, theta_i: f64) -> Albedo {
+pub(crate) fn at(scene: &AlbedoScene, theta_i: f64) -> Albedo {
     scene.at(in_range(theta_i), || false).expect("nobody stops it")
 }
 
-fn total(albedo: &Albedo) -> (f64, f64) {
+pub(crate) fn total(albedo: &Albedo) -> (f64, f64) {
     (albedo.total.value.to_f64(), albedo.total.error.to_f64())
 }
 
@@ -242,4 +242,37 @@ fn shares_are_those_of_the_closed_forms() {
     assert!(scene.excess(&albedo).expect("both are there").abs() < 1e-9);
     let [spike, lobe] = AlbedoScene::shares_of(&albedo).expect("both are there");
     assert!((spike - (-g).exp()).abs() < 1e-9 && (spike + lobe - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn radiance_requests_are_warned_where_the_albedo_is_above_one() {
+    // Of directions near a mirror direction, whatever the regime: the coarse albedo of warnings against the integral.
+    let mut random = Random::new(3);
+    let (mut warned, mut calm) = (0, 0);
+    for _ in 0..150 {
+        let length = 10f64.powf(0.5 + 0.01 * random.index(200) as f64);
+        let height = length * 0.01 * (1 + random.index(30)) as f64;
+        let shadowing = [Shadowing::None, Shadowing::VGroove, Shadowing::Smith][random.index(3)];
+        let model = [Model::BeckmannSpizzichino, Model::TorranceSparrow][random.index(2)];
+        let theta_i = random.index(86) as f64;
+        let mut parameters = conductor(model, height, length);
+        parameters.surface.shadowing = Some(shadowing);
+        let (albedo, _) = total(&at(&to_tolerance(&parameters, 1e-3), theta_i));
+        let scene = Scene::new(parameters.clone()).expect("a scene");
+        let one = |theta: f64| Angles::One(in_range(theta));
+        let directions =
+            Directions::new(one(theta_i), Angles::One(in_range(theta_i)), Angles::One(in_range(0.0)));
+        let directions = directions.expect("directions");
+        let evaluation = evaluate(&scene, &directions, Quantity::Radiance, Output::default());
+        let is_warned = evaluation.warnings.iter().any(|warning| warning.code.name() == "energy_above_one");
+        // 1.05, and what the coarse albedo may be off by.
+        if albedo > 1.11 {
+            assert!(is_warned, "{parameters:?} {theta_i}: {albedo}");
+            warned += 1;
+        } else if albedo < 1.0 {
+            assert!(!is_warned, "{parameters:?} {theta_i}: {albedo}");
+            calm += 1;
+        }
+    }
+    assert!(warned > 5 && calm > 50, "{warned} {calm}");
 }

@@ -2,6 +2,7 @@
 
 mod albedo;
 mod energy;
+mod energy_page;
 mod hankel;
 mod invariance;
 mod limits;

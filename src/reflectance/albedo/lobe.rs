@@ -11,13 +11,15 @@ use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::cubature::{self, Cubature, Goal, Grid, NODES};
 use crate::reflectance::numeric::dispatch::InstructionSet;
 use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES};
-use crate::reflectance::numeric::lobe_series::patches::Tier;
+use crate::reflectance::numeric::lobe_series::patches::{self, Tier};
 use crate::reflectance::numeric::lobe_series::{self, LobeSeries, Method};
 use crate::reflectance::shadowing::ShadowingFunction;
 use core::f64::consts::{PI, SQRT_2};
 
 /// Rectangles at most: a tenth of a second.
 const MOST_RECTANGLES: usize = 4000;
+/// Where the value serves to warn.
+const MOST_ROUGHLY: usize = 60;
 /// Facets whose density is e^{−100} of the level ones' reflect less than rounding loses, whatever their F′.
 const CUT: f64 = 100.0;
 /// Rounding of what surrounds S or p in ε, and what it does to them: four times what counting roundings gives.
@@ -56,6 +58,27 @@ impl Lobe {
     ) -> Option<Cubature> {
         let kinks =
             Kinks { grooves: self.shadowing == ShadowingFunction::VGroove, critical: self.critical() };
+        let goal = Goal { tolerance, beside, most: MOST_RECTANGLES };
+        let whole = self.over_hemisphere(source, kinks, goal, is_over)?;
+        Some(Cubature { error: whole.error + self.beyond(source), ..whole })
+    }
+
+    /// The same to 0.02 of it and what is `beside` it together, its kinks left to chance, by the coarsest series.
+    pub(super) fn roughly(mut self, source: SinCos, beside: f64) -> f64 {
+        if let Slopes::Heights { method, tier, .. } = &mut self.slopes {
+            (*method, *tier) = (Method::Auto, patches::within(0.1));
+        }
+        let goal = Goal { tolerance: 0.02, beside, most: MOST_ROUGHLY };
+        self.over_hemisphere(source, Kinks::default(), goal, || false).map_or(0.0, |whole| whole.value)
+    }
+
+    fn over_hemisphere(
+        &self,
+        source: SinCos,
+        kinks: Kinks,
+        goal: Goal,
+        is_over: impl Fn() -> bool,
+    ) -> Option<Cubature> {
         let (width, end) = self.extent(source);
         let hemisphere = Hemisphere::new(source, width, end, kinks);
         let mut batch = Batch::new();
@@ -65,9 +88,7 @@ impl Lobe {
                 self.fill_angles(&hemisphere, square, grid, sigma_alpha, scale);
             }
         };
-        let goal = Goal { tolerance, beside, most: MOST_RECTANGLES };
-        let whole = cubature::integrate(hemisphere.squares(), goal, is_over, fill)?;
-        Some(Cubature { error: whole.error + self.beyond(source), ..whole })
+        cubature::integrate(hemisphere.squares(), goal, is_over, fill)
     }
 
     /// Whether it has no strength, or there is no surface.

@@ -101,7 +101,7 @@ impl AlbedoScene {
             };
         }
         let mut evaluations = 0;
-        if let Some(lobe) = self.lobe().filter(|_| !self.is_closed()) {
+        if let Some(lobe) = lobe_of(&self.0).filter(|_| !self.is_closed()) {
             let beside = Estimate::total(&components).value.to_f64();
             let (sent, points) = self.sent(&lobe, source, g, beside, is_over)?;
             components[Component::SpecularLobe.index()] = Some(sent);
@@ -142,7 +142,7 @@ impl AlbedoScene {
             return Some((Estimate::INFINITE, 0));
         }
         // What does not depend on the viewer.
-        let mut factor = Estimate::from(self.average(source));
+        let mut factor = Estimate::from(average_of(&self.0, source));
         if self.shares() {
             let share = Scaled::new(g.map_or(1.0, unified::lobe_share));
             factor = factor.times(Estimate::within(share, 28.0 * EPSILON));
@@ -160,42 +160,51 @@ impl AlbedoScene {
         let power_sent = Estimate { value: Scaled::new(power.value), error: Scaled::new(power.error), least };
         Some((power_sent.times(factor), power.evaluations))
     }
+}
 
-    /// F′ of the lobe where it is the same for all viewers; 1 where it is integrated.
-    fn average(&self, source: SinCos) -> Energy {
-        if self.0.fresnel_average() == FresnelAverage::HalfVector {
-            return Energy::ONE;
+/// The specular lobe of a scene, if it has one whose parameters are given.
+fn lobe_of(scene: &Scene) -> Option<Lobe> {
+    let p = scene.parameters();
+    let slopes = if p.model == Model::BeckmannSpizzichino {
+        Slopes::Heights {
+            roughness: scene.relative_roughness()?,
+            method: p.accuracy.method,
+            tier: patches::within(0.1 * p.accuracy.relative_tolerance.get()),
         }
-        let level = Geometry::of_facet(&FacetAngles {
-            source,
-            slope: SinCos { sin: 0.0, cos: 1.0 },
-            azimuth: SinCos { sin: 0.0, cos: 1.0 },
-            cos_local: source.cos,
-            cos_r: source.cos,
-        });
-        Reflectivity::of(&self.0, &SlopeAverages::default()).energy(&level)
-    }
+    } else {
+        let facets = scene.facets?;
+        Slopes::Angles { sigma_alpha: facets.sigma_alpha, scale: facets.scale }
+    };
+    Some(Lobe {
+        slopes,
+        medium: match scene.fresnel_average() {
+            FresnelAverage::HalfVector => p.surface.medium,
+            FresnelAverage::MeanPlane | FresnelAverage::SlopeAverage => Medium::PerfectConductor,
+        },
+        polarization: p.illumination.polarization,
+        shadowing: scene.shadowing_function(),
+    })
+}
 
-    fn lobe(&self) -> Option<Lobe> {
-        let p = self.0.parameters();
-        let slopes = if p.model == Model::BeckmannSpizzichino {
-            Slopes::Heights {
-                roughness: self.0.relative_roughness()?,
-                method: p.accuracy.method,
-                tier: patches::within(0.1 * p.accuracy.relative_tolerance.get()),
-            }
-        } else {
-            let facets = self.0.facets?;
-            Slopes::Angles { sigma_alpha: facets.sigma_alpha, scale: facets.scale }
-        };
-        Some(Lobe {
-            slopes,
-            medium: match self.0.fresnel_average() {
-                FresnelAverage::HalfVector => p.surface.medium,
-                FresnelAverage::MeanPlane | FresnelAverage::SlopeAverage => Medium::PerfectConductor,
-            },
-            polarization: p.illumination.polarization,
-            shadowing: self.0.shadowing_function(),
-        })
+/// F′ of the lobe where it is the same for all viewers; 1 where it is integrated.
+fn average_of(scene: &Scene, source: SinCos) -> Energy {
+    if scene.fresnel_average() == FresnelAverage::HalfVector {
+        return Energy::ONE;
     }
+    let level = Geometry::of_facet(&FacetAngles {
+        source,
+        slope: SinCos { sin: 0.0, cos: 1.0 },
+        azimuth: SinCos { sin: 0.0, cos: 1.0 },
+        cos_local: source.cos,
+        cos_r: source.cos,
+    });
+    Reflectivity::of(scene, &SlopeAverages::default()).energy(&level)
+}
+
+/// The albedo of the lobe of (47) to 0.02 of 1 or of itself, whichever is more, in a quarter of a millisecond: it serves to
+/// warn. The source is not at the horizon.
+pub(super) fn height_lobe_roughly(scene: &Scene, source: SinCos) -> Option<f64> {
+    let lobe = lobe_of(scene)?;
+    let over = if lobe.shadowing == ShadowingFunction::None { 1.0 / source.cos } else { 1.0 };
+    Some(lobe.roughly(source, 1.0 / over) * over * average_of(scene, source).value)
 }
