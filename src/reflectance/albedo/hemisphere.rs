@@ -22,6 +22,17 @@ const NEAREST: f64 = 1e-12;
 const FINE: f64 = 1.0;
 const COARSE: f64 = 4.0;
 
+/// The slopes of a lobe, as tan α.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    /// About so wide it is.
+    pub(super) width: f64,
+    /// Nothing of what multiplies it changes within less, next to the level facets; 1 at most.
+    pub(super) finest: f64,
+    /// Nothing of it is beyond.
+    pub(super) end: f64,
+}
+
 /// Where an integrand is not smooth.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Kinks {
@@ -116,11 +127,11 @@ pub(super) struct Facet {
 }
 
 impl Hemisphere {
-    /// Of a source; the lobe is about `width` wide in tan α, and nothing of it is beyond `end`.
-    pub(super) fn new(source: SinCos, width: f64, end: f64, kinks: Kinks) -> Self {
+    /// Of a source.
+    pub(super) fn new(source: SinCos, extent: &Extent, kinks: Kinks) -> Self {
         let complement = libm::atan2(source.cos, source.sin);
         let mut hemisphere = Self { source, complement, kinks, squares: Vec::new() };
-        for slopes in hemisphere.spans(width, end) {
+        for slopes in hemisphere.spans(extent) {
             for interval in 0..=kinks.count() {
                 let parts = hemisphere.parts(&slopes, interval);
                 let of_part = |part| Square { slopes, interval, part, parts };
@@ -175,7 +186,7 @@ impl Hemisphere {
         breaks
     }
 
-    fn spans(&self, width: f64, end: f64) -> Vec<Span> {
+    fn spans(&self, &Extent { width, finest, end }: &Extent) -> Vec<Span> {
         let grazing = libm::tan(0.5 * self.complement);
         let focus = libm::log(width);
         let mut spans = Vec::new();
@@ -184,7 +195,7 @@ impl Hemisphere {
         for high in self.breaks(end) {
             let is_full = high <= grazing * (1.0 + 1e-9);
             if low == 0.0 {
-                let first = high.min(0.5 * width.min(1.0));
+                let first = high.min(0.5 * width.min(finest));
                 spans.push(Span { low, high: first, soft: [false, first == high], is_full });
                 low = first;
                 after_break = first == high;

@@ -3,7 +3,7 @@
 //! With the facets of [`super::hemisphere`] the lobe of (47) is (x S(g, x)/π) F′ G/cos θ_i · cos θ′/cos α d(ln tan α) dψ, and
 //! (70) is c·a_f p(α) F′ G/cos θ_i · cos θ′ dω: neither divides by cos θ_r.
 
-use super::hemisphere::{Facet, Hemisphere, Kinks, Ring};
+use super::hemisphere::{Extent, Facet, Hemisphere, Kinks, Ring};
 use crate::reflectance::beckmann_spizzichino::RelativeRoughness;
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::fresnel::{Energies, Energy, Medium, Polarization};
@@ -35,6 +35,9 @@ pub(super) struct Lobe {
     pub(super) medium: Medium,
     pub(super) polarization: Polarization,
     pub(super) shadowing: ShadowingFunction,
+    /// Viewers closer than this to the normal are all alike to its shadowing: the steepest facets of a Gaussian surface hide
+    /// others from there on.
+    pub(super) finest: f64,
 }
 
 /// Where its facets come from.
@@ -79,8 +82,7 @@ impl Lobe {
         goal: Goal,
         is_over: impl Fn() -> bool,
     ) -> Option<Cubature> {
-        let (width, end) = self.extent(source);
-        let hemisphere = Hemisphere::new(source, width, end, kinks);
+        let hemisphere = Hemisphere::new(source, &self.extent(source), kinks);
         let mut batch = Batch::new();
         let fill = |square: usize, grid: &mut Grid| match self.slopes {
             Slopes::Heights { .. } => self.fill_heights(&hemisphere, square, grid, &mut batch),
@@ -110,9 +112,9 @@ impl Lobe {
         }
     }
 
-    /// The width of the lobe in tan α, and where it may be cut.
-    fn extent(&self, source: SinCos) -> (f64, f64) {
-        match self.slopes {
+    /// The width of the lobe, and where it may be cut.
+    fn extent(&self, source: SinCos) -> Extent {
+        let (width, end) = match self.slopes {
             Slopes::Heights { roughness, .. } => {
                 let slope = 2.0 * roughness.height / roughness.correlation_length;
                 let wave = 2.0 * PI * roughness.correlation_length;
@@ -128,7 +130,8 @@ impl Lobe {
                 let end = if end < 1.57 { libm::tan(end) } else { f64::INFINITY };
                 (libm::tan(sigma_alpha.min(0.785)), end)
             }
-        }
+        };
+        Extent { width, finest: self.finest, end }
     }
 
     /// cos θ′ times the shadowing over cos θ_i is not larger; none where nothing is known.

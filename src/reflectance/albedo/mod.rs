@@ -183,6 +183,10 @@ fn lobe_of(scene: &Scene) -> Option<Lobe> {
         },
         polarization: p.illumination.polarization,
         shadowing: scene.shadowing_function(),
+        finest: match scene.slope() {
+            Some(slope) if scene.shadowing().needs_slope() => 1.0 / slope.get().max(1.0),
+            _ => 1.0,
+        },
     })
 }
 

@@ -1,6 +1,6 @@
 //! The coordinates and the integrals, against closed forms and against themselves.
 
-use super::hemisphere::{Hemisphere, Kinks};
+use super::hemisphere::{Extent, Hemisphere, Kinks};
 use super::{Albedo, AlbedoScene};
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
@@ -19,9 +19,13 @@ use crate::reflectance::scene::{
 use crate::reflectance::shadowing::Shadowing;
 use core::f64::consts::PI;
 
+fn extent(width: f64) -> Extent {
+    Extent { width, finest: 1.0, end: f64::INFINITY }
+}
+
 /// Over the hemisphere of viewers, ∫ f dω_r.
 fn over_viewers(theta_i: f64, width: f64, kinks: Kinks, f: impl Fn(&Geometry) -> f64) -> Cubature {
-    let hemisphere = Hemisphere::new(SinCos::of_degrees(theta_i), width, f64::INFINITY, kinks);
+    let hemisphere = Hemisphere::new(SinCos::of_degrees(theta_i), &extent(width), kinks);
     cubature::integrate(
         hemisphere.squares(),
         Goal { tolerance: 1e-11, beside: 0.0, most: 4000 },
@@ -66,7 +70,7 @@ fn the_facets_cover_the_hemisphere_once() {
 #[test]
 fn a_facet_has_the_geometry_of_its_directions() {
     for theta_i in [10.0, 60.0, 89.0] {
-        let hemisphere = Hemisphere::new(SinCos::of_degrees(theta_i), 0.2, f64::INFINITY, Kinks::default());
+        let hemisphere = Hemisphere::new(SinCos::of_degrees(theta_i), &extent(0.2), Kinks::default());
         for square in 0..hemisphere.squares() {
             for (first, second) in [(0.1, 0.2), (0.5, 0.5), (0.9, 0.7)] {
                 let ring = hemisphere.ring(square, first);
