@@ -2,7 +2,7 @@
 
 use super::answer::{DiagnosticAnswer, WarningAnswer};
 use super::responses::PostProblems;
-use super::scene::CheckedAlbedoScene;
+use super::scene::{SceneWire, note};
 use crate::http::app::App;
 use crate::http::body::JsonBody;
 use crate::http::compute;
@@ -14,14 +14,14 @@ use crate::http::encode::json;
 use crate::http::encode::numbers::Numbers;
 use crate::http::encode::rows::{Binary, Cells, Head, Heading, Kind as Column, RowFormat, Rows};
 use crate::http::input::node::Node;
-use crate::http::input::object::object;
-use crate::http::input::reader::Reader;
+use crate::http::input::object::{WireObject, object};
+use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::values::List;
-use crate::http::input::wire::{Schemas, Wire, mismatch};
+use crate::http::input::wire::{Parameter, Schemas, Wire, mismatch};
 use crate::http::negotiate::{Tabular, VARY};
 use crate::http::problem::{Code, FieldError, Kind, Problem};
 use crate::reflectance::albedo::{Albedo, AlbedoScene};
-use crate::reflectance::bounds::{Bounds, MAX_INCIDENCES};
+use crate::reflectance::bounds::{Bounds, DEFAULT_ALBEDO_TOLERANCE, MAX_INCIDENCES};
 use crate::reflectance::quantity::{Quantity as _, SourceZenith};
 use crate::reflectance::scene::Component;
 use axum::extract::State;
@@ -31,7 +31,7 @@ use futures_util::{StreamExt as _, TryStreamExt as _, stream};
 use serde::Serialize;
 use std::sync::Arc;
 use utoipa::ToSchema;
-use utoipa::openapi::schema::Schema;
+use utoipa::openapi::schema::{ObjectBuilder, Schema};
 use utoipa::openapi::{OneOfBuilder, RefOr};
 
 /// One incidence or several.
@@ -62,6 +62,39 @@ impl Wire for Incidences {
     }
 
     fn collect(_: &mut Schemas) {}
+}
+
+/// A scene for an albedo, which needs no sensor and has a tolerance of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedAlbedoScene(pub(crate) AlbedoScene);
+
+impl WireObject for CheckedAlbedoScene {
+    const NAME: &'static str = SceneWire::NAME;
+    const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
+
+    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let wire = SceneWire::take(fields, reader)?;
+        for error in AlbedoScene::outline(wire.outline()).errors() {
+            note(&error, reader);
+        }
+        AlbedoScene::new(wire.into_parameters(DEFAULT_ALBEDO_TOLERANCE)?).ok().map(Self)
+    }
+
+    fn names() -> Vec<&'static str> {
+        SceneWire::names()
+    }
+
+    fn properties(object: ObjectBuilder) -> ObjectBuilder {
+        SceneWire::properties(object)
+    }
+
+    fn inner(schemas: &mut Schemas) {
+        SceneWire::inner(schemas);
+    }
+
+    fn query_parameters(required: bool) -> Vec<Parameter> {
+        SceneWire::query_parameters(required)
+    }
 }
 
 object! {
@@ -217,8 +250,8 @@ impl AlbedoAnswer {
         ];
         let head = Head { columns: columns.iter().map(heading).collect(), rows: count, notes };
         let mut bytes = format.head(&head)?;
-        let cells = columns.iter().map(|(_, numbers)| Cells::Numbers(&numbers.0)).collect();
-        format.rows(&head, &Rows { count, columns: cells }, &mut bytes)?;
+        let cells = columns.iter().map(|(_, numbers)| Cells::Numbers(numbers.0.as_slice().into())).collect();
+        format.rows(&head, Rows { count, columns: cells }, &mut bytes)?;
         bytes.append(&mut format.tail(&head)?);
         Ok(bytes)
     }

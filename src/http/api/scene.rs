@@ -5,8 +5,7 @@ use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
 use crate::http::problem::Code;
-use crate::reflectance::albedo::AlbedoScene;
-use crate::reflectance::bounds::{DEFAULT_ALBEDO_TOLERANCE, DEFAULT_TOLERANCE};
+use crate::reflectance::bounds::DEFAULT_TOLERANCE;
 use crate::reflectance::fresnel::{Medium, Polarization};
 use crate::reflectance::fresnel_average::FresnelAverage;
 use crate::reflectance::numeric::lobe_series::Method;
@@ -227,7 +226,7 @@ object! {
 
 impl SceneWire {
     /// What is known, for the checks of the parts against each other.
-    fn outline(&self) -> Outline {
+    pub(super) fn outline(&self) -> Outline {
         let surface = self.surface.as_ref();
         let light = self.illumination.as_ref();
         let absences = [
@@ -256,7 +255,7 @@ impl SceneWire {
     }
 
     /// The parameters, if all could be read.
-    fn into_parameters(self, default_tolerance: f64) -> Option<SceneParameters> {
+    pub(super) fn into_parameters(self, default_tolerance: f64) -> Option<SceneParameters> {
         let (surface, accuracy) = (self.surface?, self.accuracy?);
         let (wavelength, irradiance, polarization) = match self.illumination? {
             Some(light) => (light.wavelength_um?, light.irradiance?, light.polarization?),
@@ -330,41 +329,8 @@ impl WireObject for CheckedScene {
     }
 }
 
-/// The same for an albedo, which needs no sensor and has a tolerance of its own.
-#[derive(Clone, Debug)]
-pub(crate) struct CheckedAlbedoScene(pub(crate) AlbedoScene);
-
-impl WireObject for CheckedAlbedoScene {
-    const NAME: &'static str = SceneWire::NAME;
-    const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
-
-    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let wire = SceneWire::take(fields, reader)?;
-        for error in AlbedoScene::outline(wire.outline()).errors() {
-            note(&error, reader);
-        }
-        AlbedoScene::new(wire.into_parameters(DEFAULT_ALBEDO_TOLERANCE)?).ok().map(Self)
-    }
-
-    fn names() -> Vec<&'static str> {
-        SceneWire::names()
-    }
-
-    fn properties(object: ObjectBuilder) -> ObjectBuilder {
-        SceneWire::properties(object)
-    }
-
-    fn inner(schemas: &mut Schemas) {
-        SceneWire::inner(schemas);
-    }
-
-    fn query_parameters(required: bool) -> Vec<wire::Parameter> {
-        SceneWire::query_parameters(required)
-    }
-}
-
 /// Notes what the core found at the field that a client knows.
-fn note(error: &SceneError, reader: &mut Reader) {
+pub(super) fn note(error: &SceneError, reader: &mut Reader) {
     match error {
         SceneError::Missing { parameter, needed_by, unless } => {
             let unless = unless.map(|other| format!(", unless {} is given", place(other).1));
