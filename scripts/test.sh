@@ -11,6 +11,14 @@ trap 'rm -f "$log"' EXIT
 # Steps that are not cargo's tests count as one each.
 passes() { echo "test result: ok. 1 passed; 0 failed; 0 ignored;" >>"$log"; }
 
+export PATH="$PWD/target/tools/bin:$PATH"
+deny() {
+    cargo deny --version 2>/dev/null | grep -q "$DENY" && return
+    nice cargo install cargo-deny --version "$DENY" --locked --debug --jobs 1 --root target/tools --target-dir target/tools/build
+    # A gigabyte that nothing needs any more.
+    rm -rf target/tools/build
+}
+
 step "format"
 cargo fmt --check
 cargo fmt --check --manifest-path fuzz/Cargo.toml
@@ -18,16 +26,6 @@ step "the core stands alone"
 cargo check --lib --no-default-features
 step "lints"
 cargo clippy --all-targets -- -D warnings
-step "licences, duplicates, sources"
-# Advisories are asked for where GitHub can be reached, which holds their list: cargo deny check advisories.
-export PATH="$PWD/target/tools/bin:$PATH"
-if ! cargo deny --version 2>/dev/null | grep -q "$DENY"; then
-    cargo install cargo-deny --version "$DENY" --locked --debug --root target/tools --target-dir target/tools/build
-    # A gigabyte that nothing needs any more.
-    rm -rf target/tools/build
-fi
-cargo deny check licenses bans sources
-passes
 step "the release binary"
 cargo build --release
 step "tests"
@@ -37,7 +35,15 @@ cargo test --no-fail-fast 2>&1 | tee -a "$log"
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 step "the service against its own document, without keys and with"
+# Built beside it: the service and its tester keep one processor busy between them.
+deny >target/deny.log 2>&1 &
+deny=$!
 scripts/schemathesis.sh
+passes
+step "licences, duplicates, sources"
+wait $deny || { tail -n 20 target/deny.log; exit 1; }
+# Advisories are asked for where GitHub can be reached, which holds their list: cargo deny check advisories.
+cargo deny check licenses bans sources
 passes
 step "a minute at half load"
 scripts/soak.sh 60

@@ -90,6 +90,14 @@ pub struct Access {
     pub tls_key: Option<PathBuf>,
 }
 
+impl Access {
+    /// Requests of one client in a second, and at once after a pause, if they are limited.
+    pub(crate) fn rate_limit(&self) -> Option<[NonZeroU32; 2]> {
+        let rate = self.rate_limit_per_second?;
+        Some([rate, self.rate_limit_burst.unwrap_or(rate)])
+    }
+}
+
 /// What a request may be and take.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Limits of a request")]

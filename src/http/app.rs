@@ -5,6 +5,7 @@ use super::compute::pool::Pool;
 use super::edge;
 use super::transport::doors::Doors;
 use crate::config::Config;
+use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -41,6 +42,8 @@ pub(crate) struct Limits {
     pub(crate) connections: usize,
     pub(crate) idle_time: Duration,
     pub(crate) stall_time: Duration,
+    /// Requests of one client in a second, and at once after a pause, if they are limited.
+    pub(crate) rate: Option<[NonZeroU32; 2]>,
 }
 
 impl Limits {
@@ -63,6 +66,7 @@ impl Limits {
             connections: connections.connection_limit,
             idle_time: connections.idle_timeout_seconds,
             stall_time: connections.stall_timeout_seconds,
+            rate: config.access.rate_limit(),
         }
     }
 }

@@ -29,6 +29,9 @@ const LARGE: u64 = 64 << 10;
 
 /// Announced lengths that are believed before the bytes arrive.
 const TRUSTED: usize = 1 << 20;
+/// Bytes of a body that are taken before others have their turn: a tenth of a millisecond.
+const AT_ONCE: usize = 128 << 10;
+
 /// How many times the limit is read of a body that is too long.
 const DROPPED_AT_MOST: u64 = 4;
 
@@ -153,8 +156,15 @@ impl Incoming<'_> {
         let trusted = if self.turn.is_some() { usize::MAX } else { TRUSTED };
         let mut collected = Vec::with_capacity(usize::try_from(announced).unwrap_or(0).min(trusted));
         let mut length = 0;
+        let mut at_once = 0;
         while let Some(data) = self.next().await? {
             length += data.len() as u64;
+            at_once += data.len();
+            if at_once > AT_ONCE {
+                // What has arrived already would be copied without a pause, while small requests wait.
+                tokio::task::yield_now().await;
+                at_once = 0;
+            }
             if length.max(announced) <= limit {
                 self.await_turn(length).await?;
                 collected.extend_from_slice(&data);

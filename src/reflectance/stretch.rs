@@ -188,6 +188,13 @@ pub struct Parts {
 }
 
 impl Tally {
+    /// So many directions evaluated in one way, of which there is nothing to be said.
+    pub fn of(by: EvaluatedBy, directions: usize) -> Self {
+        let mut tally = Self::default();
+        tally.counts[by.index()] = directions;
+        tally
+    }
+
     /// Adds what was counted in the directions that follow.
     pub fn append(&mut self, next: &Self) {
         for (count, next) in self.counts.iter_mut().zip(next.counts) {

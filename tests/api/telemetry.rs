@@ -1,7 +1,7 @@
 //! What the service says about its requests: names, log lines, metrics, spans, headers.
 
 use crate::server::{Server, scene};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
 use std::process::Command;
@@ -183,6 +183,13 @@ fn metrics_count_directions_by_method() {
         assert_eq!(metric(&server, "reflectance_directions_total", &[&label]), count.as_f64().unwrap());
     }
     assert_eq!(metric(&server, "reflectance_directions_total", &[]) - before, 2.0);
+    // A linear model has one way to be evaluated.
+    let linear = json!({
+        "model": "fixed_source", "C_dl": 1, "C_sl": 1, "C_ss": 0, "facet_slope_deg": 5, "spike": "delta",
+        "geometry": {"theta_i_deg": 30, "theta_r_deg": [0, 30, 40]}
+    });
+    server.answer("/v1/image-irradiance", &linear);
+    assert_eq!(metric(&server, "reflectance_directions_total", &["method=\"closed_form\""]), 3.0);
 }
 
 #[test]

@@ -73,9 +73,10 @@ impl From<Parts> for Stretch {
 
 impl From<LinearEvaluation> for Stretch {
     fn from(evaluation: LinearEvaluation) -> Self {
+        let tally = Tally::of(EvaluatedBy::ClosedForm, evaluation.total.len());
         let mut numbers = numbers(evaluation.total, evaluation.log10_total, evaluation.components);
         numbers.push(evaluation.relative_error_bound);
         let (delta_on, diagnostics) = (Some(evaluation.delta_on), evaluation.diagnostics);
-        Self { numbers, method: None, delta_on, diagnostics, tally: Tally::default() }
+        Self { numbers, method: None, delta_on, diagnostics, tally }
     }
 }

@@ -145,8 +145,9 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
         connections,
         idle_time,
         stall_time,
+        rate,
     } = *limits;
-    vec![
+    let mut list = vec![
         ("body_limit_bytes", body_bytes.into(), "bytes", Refused(Kind::ContentTooLarge)),
         ("expanded_body_limit_bytes", expanded_body_bytes.into(), "bytes", Refused(Kind::ContentTooLarge)),
         ("head_limit_bytes", head_bytes.into(), "bytes", Refused(Kind::HeadTooLarge)),
@@ -168,7 +169,13 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
             "seconds",
             Else("refused with 408 while a body arrives; the connection is closed while an answer is sent"),
         ),
-    ]
+    ];
+    if let Some([rate, burst]) = rate {
+        let refused = Refused(Kind::RateLimited);
+        list.push(("rate_limit_per_second", u64::from(rate.get()).into(), "requests of one client", refused));
+        list.push(("rate_limit_burst", u64::from(burst.get()).into(), "requests of one client", refused));
+    }
+    list
 }
 
 /// Flag, variable and description of what the command line can set, by its name.
@@ -291,6 +298,9 @@ mod tests {
     use crate::http::app::App;
     use clap::Parser as _;
 
+    /// Rates are not limited unless it is asked for.
+    const RATED: [&str; 4] = ["--rate-limit-per-second", "7", "--rate-limit-burst", "9"];
+
     fn limits(flags: &[&str]) -> Limits {
         let cli = Cli::try_parse_from([&["reflectance"], flags].concat()).unwrap();
         *App::new(&cli.config).limits()
@@ -299,12 +309,18 @@ mod tests {
     #[test]
     fn every_limit_has_its_flag_and_its_value() {
         // Every flag set to a value of its own: each has to come back under its name.
-        for limit in list(&limits(&[])).limits {
+        for limit in list(&limits(&RATED)).limits {
             assert!(!limit.description.is_empty(), "{}", limit.name);
             assert!(limit.status.is_some() || limit.beyond != "refused", "{}", limit.name);
             let Some(flag) = &limit.flag else { continue };
             assert!(limit.variable.is_some_and(|name| name.starts_with("REFLECTANCE_")), "{flag}");
-            let set = list(&limits(&[flag, "12345"])).limits;
+            let mut flags = RATED.to_vec();
+            if let Some(place) = flags.iter().position(|other| other == flag) {
+                flags[place + 1] = "12345";
+            } else {
+                flags.extend([flag, "12345"]);
+            }
+            let set = list(&limits(&flags)).limits;
             let set = set.iter().find(|other| other.name == limit.name).unwrap().value;
             assert!(matches!(set, Value::Whole(12345) | Value::Seconds(12345.0)), "{flag}: {set:?}");
             assert_ne!(set, limit.value);
@@ -313,12 +329,10 @@ mod tests {
 
     #[test]
     fn every_flag_that_is_a_limit_is_listed() {
-        let listed = list(&limits(&[])).limits;
+        let listed = list(&limits(&RATED)).limits;
         for setting in SETTINGS.iter() {
             let is_limit = setting.id.contains("_limit") || setting.id.contains("_timeout");
-            let is_of_requests =
-                setting.id != "shutdown_timeout_seconds" && !setting.id.starts_with("rate_limit");
-            if is_limit && is_of_requests {
+            if is_limit && setting.id != "shutdown_timeout_seconds" {
                 assert!(listed.iter().any(|limit| limit.name == setting.id), "{}", setting.id);
             }
         }

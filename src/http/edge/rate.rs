@@ -52,8 +52,7 @@ pub(super) struct Standing {
 impl RateLimit {
     /// None if there is no limit.
     pub(super) fn new(access: &Access) -> Option<Self> {
-        let rate = access.rate_limit_per_second?;
-        let burst = access.rate_limit_burst.unwrap_or(rate);
+        let [rate, burst] = access.rate_limit()?;
         let quota = Quota::per_second(rate).allow_burst(burst);
         let window = u64::from(burst.get()).div_ceil(u64::from(rate.get()));
         Some(Self {
