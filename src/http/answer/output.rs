@@ -12,13 +12,14 @@ use axum::http::{HeaderValue, header};
 use axum::response::Response;
 use futures_util::{Stream, StreamExt as _, stream};
 use std::future::Future;
-use std::pin::Pin;
 use std::sync::Arc;
-use std::task::{Context, Poll};
 use tokio::sync::mpsc;
 
 /// Parts that may be made before the client took those before them.
 const AHEAD: usize = 2;
+
+/// Bytes that are sent before others have their turn: a tenth of a millisecond.
+const AT_ONCE: usize = 128 << 10;
 
 /// Where a large answer goes, part by part.
 pub(super) struct Output {
@@ -111,8 +112,8 @@ pub(super) async fn begin<F: Future<Output = Result<(), End>> + Send + 'static>(
         Ok(None) => return Err(Problem::internal()),
         Err(_) => return Err(crate::http::compute::too_slow(deadline)),
     };
-    let mut response =
-        Response::new(Body::from_stream(Parts { first: Some(first), rest: parts, _abandon: abandon }));
+    let parts = Parts { first: Some(first), rest: parts, at_once: 0, _abandon: abandon };
+    let mut response = Response::new(Body::from_stream(stream::unfold(parts, Parts::next)));
     response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(content_type));
     Ok(response)
 }
@@ -121,23 +122,27 @@ pub(super) async fn begin<F: Future<Output = Result<(), End>> + Send + 'static>(
 struct Parts {
     first: Option<Bytes>,
     rest: mpsc::Receiver<Result<Bytes, Problem>>,
+    /// Bytes that were sent since others had their turn.
+    at_once: usize,
     _abandon: Abandon,
 }
 
-impl Stream for Parts {
-    type Item = Result<Bytes, std::io::Error>;
-
-    fn poll_next(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        if let Some(first) = self.first.take() {
-            return Poll::Ready(Some(Ok(first)));
+impl Parts {
+    async fn next(mut self) -> Option<(Result<Bytes, std::io::Error>, Self)> {
+        if self.at_once > AT_ONCE {
+            // A client that takes all at once would have it copied without a pause, while small requests wait.
+            tokio::task::yield_now().await;
+            self.at_once = 0;
         }
-        self.rest.poll_recv(cx).map(|part| {
-            part.map(|part| {
-                part.map_err(|problem| {
-                    tracing::warn!(detail = problem.detail, "an answer was cut short");
-                    std::io::Error::other(problem.detail)
-                })
-            })
-        })
+        let part = match self.first.take() {
+            Some(first) => Ok(first),
+            None => self.rest.recv().await?,
+        };
+        let part = part.map_err(|problem| {
+            tracing::warn!(detail = problem.detail, "an answer was cut short");
+            std::io::Error::other(problem.detail)
+        });
+        self.at_once += part.as_ref().map_or(0, Bytes::len);
+        Some((part, self))
     }
 }
