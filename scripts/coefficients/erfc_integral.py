@@ -51,6 +51,8 @@ def monomials(series):
 
 def smith(degrees, width):
     """1 + Lambda as the projections of the facets turned to the viewer, over the mean plane's: the definition."""
+    if degrees == 0:
+        return mp.mpf(1)
     theta = mp.mpf(degrees) * mp.pi / 180
     sin, cos, width = mp.sin(theta), mp.cos(theta), mp.mpf(width)
     edge = -cos / sin / width
@@ -68,9 +70,10 @@ def main():
     print("ierfc")
     for v in [0, 0.001, 0.1, 0.3, 0.5, 0.8, 1.3, 2, 3.1, 4.5, 5.9]:
         print(f"    ({v!r}, {float(ierfc(mp.mpf(v)))!r}),")
-    print("1 + Lambda by the definition: zenith, m, value")
-    for degrees, width in [(30, 0.5), (60, 0.4), (80, 0.2), (89, 1.0), (45, 2.0), (75, 0.05), (89.9, 0.02), (10, 20.0)]:
-        print(f"    ({degrees!r}, {width!r}, {float(smith(degrees, width))!r}),")
+    print("1 + Lambda by the definition: m, and the values at these zeniths")
+    zeniths = [0, 20, 60, 85, 89.9]
+    for width in [0.05, 0.4, 3]:
+        print(f"    ({width}, {[float(smith(degrees, width)) for degrees in zeniths]!r}),")
 
 
 if __name__ == "__main__":

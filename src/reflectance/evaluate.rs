@@ -195,6 +195,11 @@ pub fn expected_cost(scene: &Scene, output: Output) -> f64 {
     cost::expected(scene, output.log10)
 }
 
+/// What the averages of F over the slopes cost before any direction, for so many zeniths of the source, in the same unit.
+pub const fn average_cost(sources: usize) -> f64 {
+    cost::SLOPE_AVERAGE * sources as f64
+}
+
 /// Evaluates a scene in every direction; many directions on all threads of rayon's current pool.
 ///
 /// A direction's answer does not depend on the others.

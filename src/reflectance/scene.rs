@@ -299,6 +299,13 @@ impl Scene {
         self.parameters.surface.fresnel_average.unwrap_or(FresnelAverage::HalfVector)
     }
 
+    /// Whether F has to be averaged over the slopes, which takes long.
+    pub fn averages_slopes(&self) -> bool {
+        self.fresnel_average() == FresnelAverage::SlopeAverage
+            && self.parameters.surface.medium != Medium::PerfectConductor
+            && self.evaluated.contains(&Component::SpecularLobe)
+    }
+
     /// Beckmann's m of the facets of the lobe.
     pub(super) fn slope(&self) -> Option<BeckmannWidth> {
         self.parameters.surface.slope(self.parameters.model)

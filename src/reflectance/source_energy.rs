@@ -7,6 +7,7 @@ use super::directions::Directions;
 use super::facet_energy::{Facet, Facets};
 use super::findings::{Concern, Warning, WarningCode};
 use super::fresnel::{Medium, Polarization};
+use super::fresnel_average::FresnelAverage;
 use super::requirement;
 use super::scene::{Component, FacetParameters, Model, Scene};
 use super::shadowing::{Shadowing, smith_lambda, smith_visible_roughly};
@@ -42,6 +43,8 @@ pub(super) struct SourceEnergy<'a> {
     rough_only: bool,
     medium: Medium,
     polarization: Polarization,
+    /// Over what F of the lobe is averaged.
+    average: FresnelAverage,
     /// Made when it is needed, as the facets are.
     fresnel: OnceCell<FresnelTable>,
 }
@@ -100,6 +103,7 @@ impl<'a> SourceEnergy<'a> {
             rough_only: heights,
             medium: p.surface.medium,
             polarization: p.illumination.polarization,
+            average: scene.fresnel_average(),
             fresnel: OnceCell::new(),
         })
     }
@@ -124,6 +128,11 @@ impl<'a> SourceEnergy<'a> {
         if most <= 1.0 + COARSE {
             return (most, again);
         }
+        let common = match self.average {
+            FresnelAverage::HalfVector => None,
+            FresnelAverage::MeanPlane => Some(self.reflectance(source.cos)),
+            FresnelAverage::SlopeAverage => Some(lobe.slopes().mean(source, |local| self.reflectance(local))),
+        };
         albedo += scattered
             * lobe.facets().albedo(source, |facet| {
                 let seen = match lobe.shadowing {
@@ -132,7 +141,7 @@ impl<'a> SourceEnergy<'a> {
                     Shadowing::Smith => lobe.seen(facet, incident, true),
                     Shadowing::SmithUncorrelated => lobe.seen(facet, incident, false),
                 };
-                seen * self.reflectance(facet.cos_local)
+                seen * common.unwrap_or_else(|| self.reflectance(facet.cos_local))
             });
         (albedo, again)
     }

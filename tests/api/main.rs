@@ -21,6 +21,7 @@ mod radiance;
 mod readme;
 mod secure;
 mod server;
+mod surfaces;
 mod telemetry;
 mod tradeoff;
 mod transport;

@@ -3,6 +3,7 @@
 mod albedo;
 mod energy;
 mod energy_page;
+mod handover;
 mod hankel;
 mod invariance;
 mod limits;

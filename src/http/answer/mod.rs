@@ -50,7 +50,7 @@ pub(crate) async fn respond(call: Call, turn: Option<Turn>, mut work: Work) -> R
     work.check(app.limits()).map_err(Problem::invalid)?;
     work.meter = app.edge().meter();
     let asked = Asked(work.rows());
-    let nanoseconds = work.nanoseconds_a_row(format.row_format()) * work.rows() as f64;
+    let nanoseconds = work.nanoseconds(format.row_format());
     let content_type = format.content_type();
     let mut response = if nanoseconds <= SMALL {
         let body = match format.row_format() {

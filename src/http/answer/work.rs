@@ -5,9 +5,10 @@ use crate::http::app::Limits;
 use crate::http::edge::Meter;
 use crate::http::encode::rows::RowFormat;
 use crate::http::problem::{Code, FieldError, Problem};
+use crate::reflectance::bounds::MAX_AVERAGED;
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
-use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
+use crate::reflectance::evaluate::{Output, Prepared, Quantity, average_cost, expected_cost};
 use crate::reflectance::findings::Warning;
 use crate::reflectance::linear_image::LinearScene;
 use crate::reflectance::quantity::OutOfBounds;
@@ -115,11 +116,36 @@ impl Work {
             Over::Sweep(_) => ("/at_deg", "rows (points times fixed angles)", limits.rows),
         };
         let rows = self.rows();
-        if rows <= limit {
-            return Ok(());
-        }
-        let detail = format!("{rows} {what} in one request: at most {limit} are answered");
+        let detail = if rows > limit {
+            format!("{rows} {what} in one request: at most {limit} are answered")
+        } else {
+            let sources = self.averaged_sources();
+            if sources <= MAX_AVERAGED {
+                return Ok(());
+            }
+            format!(
+                "{sources} zeniths of the source in one request: with fresnel_average slope_average at most \
+                 {MAX_AVERAGED} are answered"
+            )
+        };
         Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
+    }
+
+    /// Zeniths of the source under which F is averaged over the slopes.
+    fn averaged_sources(&self) -> usize {
+        match &self.subject {
+            Subject::Scene { scene, .. } if scene.averages_slopes() => match &self.over {
+                Over::Directions(directions) => directions.distinct_sources(),
+                Over::Sweep(sweep) => sweep.sources(),
+            },
+            Subject::Scene { .. } | Subject::Linear { .. } => 0,
+        }
+    }
+
+    /// Nanoseconds of all of it, to a factor of two.
+    pub(super) fn nanoseconds(&self, format: Option<RowFormat>) -> f64 {
+        let before = EXPONENTIAL * average_cost(self.averaged_sources());
+        before + self.nanoseconds_a_row(format) * self.rows() as f64
     }
 
     /// Finds what a curve requires, `index` below [`Self::curves`].

@@ -14,7 +14,7 @@ use crate::http::input::query::{MOST_PARAMETERS, NoQuery};
 use crate::http::link::{Known, configured};
 use crate::http::negotiate::{Format, JsonOnly};
 use crate::http::problem::{Kind, Problem};
-use crate::reflectance::bounds::{MAX_CURVES, MAX_SWEEP_POINTS};
+use crate::reflectance::bounds::{MAX_AVERAGED, MAX_CURVES, MAX_SWEEP_POINTS};
 use axum::extract::State;
 use axum::response::Response;
 use clap::CommandFactory as _;
@@ -250,6 +250,13 @@ fn list(limits: &Limits) -> LimitList {
     all.extend([
         Limit::fixed("sweep_points", MAX_SWEEP_POINTS, "points", "Most points along one sweep", invalid),
         Limit::fixed("fixed_angles", MAX_CURVES, "angles", "Most fixed angles of one diagram", invalid),
+        Limit::fixed(
+            "averaged_sources",
+            MAX_AVERAGED,
+            "angles",
+            "Most zeniths of the source, over all curves, with fresnel_average slope_average",
+            invalid,
+        ),
         Limit::fixed(
             "query_parameters",
             MOST_PARAMETERS,

@@ -146,7 +146,9 @@ pub(crate) async fn plan(
     JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), scene: CheckedScene(scene), .. } = request;
-    compute::run(deadline, directions.count(), move || {
+    // An average over slopes takes as long as a thousand directions.
+    let effort = if scene.averages_slopes() { usize::MAX } else { directions.count() };
+    compute::run(deadline, effort, move || {
         json::response(&PlanAnswer::from(Plan::of(&scene, &directions)), 4096)
     })
     .await?

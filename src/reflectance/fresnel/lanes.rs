@@ -62,13 +62,14 @@ fn value_and_distance(
     // The match stands outside of the loops.
     match reflectivity.average {
         FresnelAverage::HalfVector => {
-            fill(geometries, count, lanes, |geometry| at(geometry.local_incidence()))
+            fill(geometries, count, lanes, |geometry| at(geometry.local_incidence()));
         }
         FresnelAverage::MeanPlane => {
-            fill(geometries, count, lanes, |geometry| at(SinCos { sin: geometry.sin_i, cos: geometry.cos_i }))
+            let source = |geometry: &Geometry| SinCos { sin: geometry.sin_i, cos: geometry.cos_i };
+            fill(geometries, count, lanes, |geometry| at(source(geometry)));
         }
         FresnelAverage::SlopeAverage => {
-            fill(geometries, count, lanes, |geometry| reflectivity.energy(geometry))
+            fill(geometries, count, lanes, |geometry| reflectivity.energy(geometry));
         }
     }
 }

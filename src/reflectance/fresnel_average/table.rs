@@ -6,7 +6,7 @@ use crate::reflectance::directions::Directions;
 use crate::reflectance::fresnel::{Energy, Medium, Polarization};
 use crate::reflectance::geometry::Geometry;
 use crate::reflectance::quantity::{AveragedRatio, Quantity as _};
-use crate::reflectance::scene::{Component, Scene};
+use crate::reflectance::scene::Scene;
 use core::cmp::Ordering;
 
 /// What part of the tolerance of an answer its slope averages may take.
@@ -22,10 +22,7 @@ pub(in crate::reflectance) struct SlopeAverages {
 impl SlopeAverages {
     /// Of a scene in these directions; nothing where it does not ask for them.
     pub(in crate::reflectance) fn of(scene: &Scene, directions: &Directions) -> Self {
-        let asks = scene.fresnel_average() == FresnelAverage::SlopeAverage
-            && scene.parameters().surface.medium != Medium::PerfectConductor
-            && scene.evaluated().contains(&Component::SpecularLobe);
-        if !asks {
+        if !scene.averages_slopes() {
             return Self::default();
         }
         let mut sources: Vec<SinCos> =

@@ -37,9 +37,11 @@ fn each(
     use ShadowingFunction::{None, Smith, VGroove};
     // The match stands outside of the loops: each of them is one branch-free expression.
     match (shadowing, cosines) {
-        (None, Cosines::OfView) => fill(over, count, geometries, |geometry| None.factor_over_cos_r(geometry)),
+        (None, Cosines::OfView) => {
+            fill(over, count, geometries, |geometry| None.factor_over_cos_r(geometry));
+        }
         (None, Cosines::OfBoth) => {
-            fill(over, count, geometries, |geometry| None.factor_over_cosines(geometry))
+            fill(over, count, geometries, |geometry| None.factor_over_cosines(geometry));
         }
         (VGroove, Cosines::OfView) => {
             fill(over, count, geometries, |geometry| VGroove.factor_over_cos_r(geometry));
