@@ -226,6 +226,7 @@ fn with(height: f64, tolerance: f64, method: Method, change: impl FnOnce(&mut Sc
             diffuse_albedo: in_range(0.0),
             specular_scale: None,
             shadowing: None,
+            fresnel_average: None,
         },
         illumination: Illumination {
             wavelength: Some(in_range(1.0)),

@@ -34,6 +34,7 @@ pub(crate) fn lobe(roughness: RelativeRoughness, accuracy: Accuracy) -> Scene {
             diffuse_albedo: Fraction::ZERO,
             specular_scale: None,
             shadowing: None,
+            fresnel_average: None,
         },
         illumination: Illumination {
             wavelength: Some(number::<Wavelength>(1.0)),

@@ -60,6 +60,7 @@ pub(crate) fn scene() -> Result<Scene, Failure> {
             diffuse_albedo: Fraction::ZERO,
             specular_scale: None,
             shadowing: None,
+            fresnel_average: None,
         },
         illumination: Illumination {
             wavelength: Some(Quantity::new(0.55)?),

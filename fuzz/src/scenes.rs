@@ -96,7 +96,7 @@ pub struct Scene {
 const MODELS: [&str; 4] = ["beckmann_spizzichino", "torrance_sparrow", "lambertian", "unified"];
 const COMPONENTS: [&str; 3] = ["diffuse_lobe", "specular_lobe", "specular_spike"];
 const METHODS: [&str; 6] = ["auto", "series", "paper", "uniform", "smooth", "rough"];
-const SHADOWINGS: [&str; 3] = ["none", "v_groove", "smith"];
+const SHADOWINGS: [&str; 4] = ["none", "v_groove", "smith", "smith_uncorrelated"];
 const POLARIZATIONS: [&str; 3] = ["unpolarized", "parallel", "perpendicular"];
 /// A field and the range that its numbers are mostly from.
 type Field = (&'static str, [f64; 2]);

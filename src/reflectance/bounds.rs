@@ -87,12 +87,26 @@ pub const SLOPE_RATIO: Bounds = Bounds::new("slope", "", 1e-120, 1e120);
 /// σ_α as (79) can invert it: below 90°/√2.
 pub const FACET_SLOPE_INVERTIBLE: Bounds =
     Bounds::new("facet slope that (79) can invert", "degrees", 1e-12, 63.63961030678927);
+/// σ_h/T of which F′ is averaged over the slopes: beyond, the normals crowd at the horizon.
+pub const SLOPE_AVERAGED: Bounds = Bounds::new("rms height over correlation length", "", 1e-121, 4.0);
+/// The same as a facet slope: (79) takes 58.6° to σ_h/T = 3.9988.
+pub const FACET_SLOPE_AVERAGED: Bounds =
+    Bounds::new("facet slope that F′ is averaged over", "degrees", 1e-12, 58.6);
+/// Sources' zeniths, over all curves of a diagram, for which one request averages F′ over the slopes: each takes about a
+/// millisecond.
+pub const MAX_AVERAGED: usize = 500;
 /// Ends of a sweep; a negative zenith lies on the other side of the normal.
 pub const SWEEP_ANGLE: Bounds = Bounds::new("swept zenith angle", "degrees", -90.0, 90.0);
 /// Step of a sweep.
 pub const SWEEP_STEP: Bounds = Bounds::new("sweep step", "degrees", 1e-6, 180.0);
 /// The relative tolerance of a caller who names none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+/// The relative tolerance of an albedo where none is named.
+pub const DEFAULT_ALBEDO_TOLERANCE: f64 = 1e-6;
+/// Incidences of one albedo request that a service can be set to accept.
+pub const MAX_INCIDENCES: usize = 100_000;
+/// Those that it accepts unless it is.
+pub const DEFAULT_INCIDENCES: usize = 1000;
 /// Directions in one request.
 pub const MAX_DIRECTIONS: usize = 1_000_000;
 /// Points along one sweep.

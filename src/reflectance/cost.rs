@@ -23,6 +23,9 @@ const FACET_LOBE: f64 = 20.0;
 const SPIKE: f64 = 60.0;
 /// F′ of a refractive index, with its error
 const FRESNEL: f64 = 20.0;
+/// The mean of F′ over the slopes under one source: 0.7 ms for σ_h/T below 0.3 and the default tolerance, ten times that for the
+/// steepest
+pub(super) const SLOPE_AVERAGE: f64 = 2e5;
 /// The factors of the lobe of (47) around S
 const HEIGHT_LOBE: f64 = 20.0;
 /// One term in closed form, in vector lanes

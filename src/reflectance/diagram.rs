@@ -224,6 +224,14 @@ impl Sweep {
         &self.at
     }
 
+    /// Zeniths of the source, over all curves.
+    pub fn sources(&self) -> usize {
+        match self.axis {
+            SweepAxis::ThetaR => self.at.len(),
+            SweepAxis::ThetaI => self.rows(),
+        }
+    }
+
     /// φ_r, degrees.
     pub fn phi_r(&self) -> f64 {
         self.phi_r.get()

@@ -238,6 +238,20 @@ impl Directions {
         }
     }
 
+    /// θ_i of every direction, once where it is the same in all.
+    pub(super) fn sources(&self) -> impl Iterator<Item = SourceZenith> + '_ {
+        let count = if let Angles::One(_) = self.theta_i { 1 } else { self.count };
+        (0..count).map(|index| self.theta_i.at(index))
+    }
+
+    /// How many zeniths the sources have.
+    pub fn distinct_sources(&self) -> usize {
+        let mut bits: Vec<u64> = self.sources().map(|source| source.get().to_bits()).collect();
+        bits.sort_unstable();
+        bits.dedup();
+        bits.len()
+    }
+
     /// N.
     pub fn count(&self) -> usize {
         self.count

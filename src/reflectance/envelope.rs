@@ -5,12 +5,14 @@
 //! compared: F′ of (41) and (71) is the same number for spike and lobe.
 
 use super::beckmann_spizzichino::{Patch, RelativeRoughness};
-use super::fresnel::{Medium, Polarization};
+use super::degrees::SinCos;
+use super::fresnel::{Energy, Medium, Polarization};
+use super::fresnel_average::FresnelAverage;
 use super::numeric::lobe_series::between;
 use super::quantity::Wavelength;
 use super::region::{Region, Span};
 use super::scene::{Component, Model, Scene};
-use super::shadowing::Shadowing;
+use super::shadowing::{ShadowingFunction, Smith};
 use super::unified;
 use super::view::View;
 use core::f64::consts::{FRAC_PI_4, LN_2, PI};
@@ -27,10 +29,12 @@ const STEEPEST: f64 = 1.5;
 /// What the bounds need of a scene.
 pub(super) struct Envelopes {
     model: Model,
-    shadowing: Shadowing,
+    shadowing: ShadowingFunction,
     diffuse_albedo: f64,
     medium: Medium,
     polarization: Polarization,
+    /// Over what F of the lobe is averaged; the spike has the mean plane's.
+    average: FresnelAverage,
     /// F′ is common to the components compared, or 1.
     without_fresnel: bool,
     roughness: Option<RelativeRoughness>,
@@ -47,14 +51,19 @@ impl Envelopes {
         let p = scene.parameters();
         let surface = &p.surface;
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
-        let diffuse = components.contains(&Component::DiffuseLobe);
+        let has = |component| components.contains(&component);
+        let average = scene.fresnel_average();
+        let is_common = !has(Component::DiffuseLobe)
+            && (average == FresnelAverage::MeanPlane
+                || !(has(Component::SpecularLobe) && has(Component::SpecularSpike)));
         Self {
             model: p.model,
-            shadowing: scene.shadowing(),
+            shadowing: scene.shadowing_function(),
             diffuse_albedo: surface.diffuse_albedo.get(),
             medium: surface.medium,
             polarization: p.illumination.polarization,
-            without_fresnel: !diffuse || surface.medium == Medium::PerfectConductor,
+            average,
+            without_fresnel: is_common || surface.medium == Medium::PerfectConductor,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
             facets: scene.facets.map(|facets| (facets.sigma_alpha, libm::log(facets.scale) - 2.0 * LN_2)),
@@ -80,15 +89,52 @@ impl Envelopes {
         if bounds.least.is_nan() || bounds.most.is_nan() { UNKNOWN } else { bounds }
     }
 
-    /// ln F′: of one direction its value, of many only that it is not above 1.
-    fn reflectance(&self, region: &Region) -> Span {
+    /// ln F′ of the lobe: of one direction its value if it is that of one angle.
+    fn lobe_reflectance(&self, region: &Region) -> Span {
         if self.without_fresnel {
             return constant(0.0);
         }
-        let Some(geometry) = region.direction else { return Span { most: 0.0, ..UNKNOWN } };
-        let energy = self.medium.reflectance(geometry.local_incidence(), self.polarization);
+        match (self.average, region.direction) {
+            (FresnelAverage::HalfVector, Some(geometry)) => self.reflectance_at(geometry.local_incidence()),
+            (FresnelAverage::HalfVector, None) => self.reflectance_between(region.cos_local()),
+            (FresnelAverage::MeanPlane, _) => self.mean_plane(region),
+            (FresnelAverage::SlopeAverage, _) => self.reflectance_between(Span { least: 0.0, most: 1.0 }),
+        }
+    }
+
+    /// ln F′ of the mean plane.
+    fn mean_plane(&self, region: &Region) -> Span {
+        let Region { sin_i, cos_i, .. } = region;
+        if self.without_fresnel {
+            constant(0.0)
+        } else if cos_i.least.to_bits() == cos_i.most.to_bits() && sin_i.least == sin_i.most {
+            self.reflectance_at(SinCos { sin: sin_i.least, cos: cos_i.least })
+        } else {
+            self.reflectance_between(*cos_i)
+        }
+    }
+
+    /// ln F′ at one angle of incidence.
+    fn reflectance_at(&self, incidence: SinCos) -> Span {
+        let energy = self.medium.reflectance(incidence, self.polarization);
         let (least, most) = ((energy.value - energy.error).max(0.0), (energy.value + energy.error).min(1.0));
         Span { least, most }.ln()
+    }
+
+    /// ln F′ between two cosines of incidence, and of any mean between them. F′_perp falls with the cosine,
+    /// d ln F′_perp/d cos θ = −4 Re(1/√(Y² − sin²θ)), and F′_para is not above it: their fields' ratio is that of
+    /// √(Y² − sin²θ) cos θ ∓ sin²θ.
+    fn reflectance_between(&self, cos: Span) -> Span {
+        let perpendicular = |cos: f64, slack: f64| {
+            let cos = (cos - slack).clamp(0.0, 1.0);
+            let sin = ((1.0 - cos) * (1.0 + cos) + slack).clamp(0.0, 1.0).sqrt();
+            self.medium.energies(SinCos { sin, cos }).perpendicular
+        };
+        // The cosines are rounded.
+        let slack = 1e-15;
+        let (near, far) = (perpendicular(cos.most, -slack), perpendicular(cos.least, slack));
+        let least = |energy: Energy| (energy.value - energy.error).max(0.0);
+        Span { least: self.polarization.v() * least(near), most: (far.value + far.error).min(1.0) }.ln()
     }
 
     /// ln(G/cos θ_r)
@@ -96,8 +142,9 @@ impl Envelopes {
         let &Region { cos_i, cos_r, .. } = region;
         let open = Span { least: 1.0 / cos_r.most, most: 1.0 / cos_r.least };
         let span = match self.shadowing {
-            Shadowing::None => open,
-            Shadowing::VGroove => {
+            ShadowingFunction::None => open,
+            ShadowingFunction::Smith(smith) => smith_over_cos_r(smith, region),
+            ShadowingFunction::VGroove => {
                 let groove = region.groove();
                 Span {
                     least: open.least.min(groove.least * (cos_i.least / cos_r.most).min(1.0)),
@@ -118,7 +165,7 @@ impl Envelopes {
             Span { least: 2.0 * facet.least, most: 2.0 * facet.most },
             self.shadowing_over_cos_r(region),
             lobe_series(roughness, region),
-            self.reflectance(region),
+            self.lobe_reflectance(region),
         ])
     }
 
@@ -143,7 +190,7 @@ impl Envelopes {
             Span { least: exponent(alpha.most), most: exponent(alpha.least) },
             self.shadowing_over_cos_r(region),
             share,
-            self.reflectance(region),
+            self.lobe_reflectance(region),
         ])
     }
 
@@ -170,8 +217,33 @@ impl Envelopes {
             Span { least: 2.0 * cos_i.least, most: 2.0 * cos_i.most },
             Span { least: -2.0 * cos_r.most, most: -2.0 * cos_r.least },
             shape,
-            self.reflectance(region),
+            self.mean_plane(region),
         ])
+    }
+}
+
+/// Smith's G/cos θ_r over a region: cos θ_i/(cos θ_r A_i + cos θ_i A_r) with A = (½ + Λ) cos θ, or over B_i B_r with
+/// B = (1 + Λ) cos θ.
+fn smith_over_cos_r(smith: Smith, region: &Region) -> Span {
+    let (cos_i, cos_r) = (region.cos_i, region.cos_r);
+    // 0/0 stands in the corner where both directions are grazing, where nothing is known.
+    let over = |near: f64, far: f64| if near == 0.0 { 0.0 } else { near / far };
+    let hidden_i = smith.hidden(region.sin_i, cos_i);
+    let hidden_r = smith.hidden(region.sin_r, cos_r);
+    if smith.is_correlated() {
+        // Of the divisor over cos θ_i: ½ cos θ_r + hidden_r, and cos θ_r times ½ + Λ_i.
+        let lambda_i = Span { least: over(hidden_i.least, cos_i.most), most: hidden_i.most / cos_i.least };
+        let of_source = |cos_r: f64, lambda_i: f64| if cos_r == 0.0 { 0.0 } else { cos_r * (0.5 + lambda_i) };
+        Span {
+            least: 1.0 / (of_source(cos_r.most, lambda_i.most) + 0.5 * cos_r.most + hidden_r.most),
+            most: 1.0 / (of_source(cos_r.least, lambda_i.least) + 0.5 * cos_r.least + hidden_r.least),
+        }
+    } else {
+        let visible = |cos: f64, hidden: f64| over(cos, cos + hidden);
+        Span {
+            least: visible(cos_i.least, hidden_i.most) / (cos_r.most + hidden_r.most),
+            most: visible(cos_i.most, hidden_i.least) / (cos_r.least + hidden_r.least),
+        }
     }
 }
 

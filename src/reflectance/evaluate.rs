@@ -4,6 +4,7 @@ use super::block::Block;
 use super::cost;
 use super::directions::{Directions, Extents};
 use super::findings::{Diagnostic, Omitted, Warning};
+use super::fresnel_average::table::SlopeAverages;
 use super::kernel::Kernel;
 use super::numeric::lobe_series::lanes::LANES;
 use super::requirement::Requirement;
@@ -64,6 +65,7 @@ pub struct Prepared {
     quantity: Quantity,
     output: Output,
     share: f64,
+    averages: SlopeAverages,
     omitted: Vec<Omitted>,
     extents: Extents,
     asked: Scene,
@@ -73,19 +75,21 @@ impl Prepared {
     /// Finds what is required of a scene in these directions.
     pub fn new(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Self {
         let requirement = Requirement::of(scene, directions);
-        Self::required(scene, quantity, output, requirement)
+        Self::required(scene, directions, quantity, output, requirement)
     }
 
     /// With what is required known.
     pub(super) fn required(
         scene: &Scene,
+        directions: &Directions,
         quantity: Quantity,
         output: Output,
         requirement: Requirement,
     ) -> Self {
         let Requirement { evaluated, omitted, share, extents } = requirement;
         let needed = scene.with_only(&evaluated);
-        Self { scene: needed, quantity, output, share, omitted, extents, asked: scene.clone() }
+        let averages = SlopeAverages::of(&needed, directions);
+        Self { scene: needed, quantity, output, share, averages, omitted, extents, asked: scene.clone() }
     }
 
     /// What is asked for.
@@ -121,7 +125,7 @@ impl Prepared {
         range: Range<usize>,
         is_over: impl Fn() -> bool,
     ) -> Stretch {
-        let kernel = Kernel::new(&self.scene, self.quantity, self.share);
+        let kernel = Kernel::new(&self.scene, self.quantity, self.share, &self.averages);
         let mut answer = self.room(range.start, range.len());
         for first in range.clone().step_by(PART) {
             if is_over() {
@@ -146,7 +150,7 @@ impl Prepared {
             return self.finish(whole, directions);
         }
         let mut whole = self.room(0, count);
-        let kernel = Kernel::new(&self.scene, self.quantity, self.share);
+        let kernel = Kernel::new(&self.scene, self.quantity, self.share, &self.averages);
         let part = |first: usize| {
             let end = count.min(first + PART);
             let mut answer = self.room(first, end - first);
@@ -191,6 +195,11 @@ pub fn expected_cost(scene: &Scene, output: Output) -> f64 {
     cost::expected(scene, output.log10)
 }
 
+/// What the averages of F over the slopes cost before any direction, for so many zeniths of the source, in the same unit.
+pub const fn average_cost(sources: usize) -> f64 {
+    cost::SLOPE_AVERAGE * sources as f64
+}
+
 /// Evaluates a scene in every direction; many directions on all threads of rayon's current pool.
 ///
 /// A direction's answer does not depend on the others.
@@ -206,5 +215,5 @@ pub(super) fn evaluate_required(
     output: Output,
     requirement: Requirement,
 ) -> Evaluation {
-    Prepared::required(scene, quantity, output, requirement).whole(directions)
+    Prepared::required(scene, directions, quantity, output, requirement).whole(directions)
 }

@@ -61,6 +61,22 @@ impl Facets {
         })
     }
 
+    /// The mean over the facets that face the source of what `of_local` makes of cos θ′.
+    pub fn mean(&self, source: SinCos, of_local: impl Fn(f64) -> f64) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for position in 0..AROUND {
+            let around = libm::cos(PI * (position as f64 + 0.5) / AROUND as f64);
+            for &(sin, cos, _) in &self.rings {
+                let local = source.cos * cos + source.sin * sin * around;
+                if local > 0.0 {
+                    sum += of_local(local);
+                    count += 1.0;
+                }
+            }
+        }
+        sum / count
+    }
+
     fn new(ring: impl Fn(f64) -> (f64, f64, f64)) -> Self {
         Self { rings: core::array::from_fn(|i| ring((i as f64 + 0.5) / RINGS as f64)) }
     }

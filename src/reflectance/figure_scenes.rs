@@ -40,6 +40,7 @@ pub(super) fn torrance_sparrow(facet_slope: FacetSlope) -> Result<Scene, OutOfBo
             facet_slope: Some(facet_slope),
             specular_scale: Some(SpecularScale::new(1.0)?),
             shadowing: Some(Shadowing::None),
+            fresnel_average: None,
             ..bare()?
         },
         illumination: light(None)?,
@@ -58,6 +59,7 @@ fn bare() -> Result<Surface, OutOfBounds> {
         diffuse_albedo: Fraction::new(0.0)?,
         specular_scale: None,
         shadowing: None,
+        fresnel_average: None,
     })
 }
 

@@ -14,7 +14,7 @@ use super::quantity::{
     ViewerZenith,
 };
 use super::scene::{Component, Scene};
-use super::shadowing::Shadowing;
+use super::shadowing::ShadowingFunction;
 use super::table::{Column, Curve, Table};
 use super::{degrees::SinCos, roughness};
 
@@ -324,7 +324,7 @@ fn attenuation() -> Result<Table, OutOfBounds> {
         for &theta_r in &axis {
             let geometry =
                 Geometry::new(SourceZenith::new(theta_i)?, ViewerZenith::new(theta_r)?, Azimuth::new(0.0)?);
-            values.push(Shadowing::VGroove.factor(&geometry));
+            values.push(ShadowingFunction::VGroove.factor(&geometry));
         }
         let column = Column { name: "geometrical_attenuation", unit: "", values };
         curves.push(Curve::plain("V-grooves (65)".to_owned(), Some(theta_i), column));

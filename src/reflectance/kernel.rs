@@ -5,7 +5,9 @@ mod in_lanes;
 
 use super::beckmann_spizzichino::RelativeRoughness;
 use super::estimate::Estimate;
-use super::fresnel::{Medium, Polarization};
+use super::fresnel::Medium;
+use super::fresnel_average::mean_plane;
+use super::fresnel_average::table::{Reflectivity, SlopeAverages};
 use super::geometry::Geometry;
 use super::lambertian;
 use super::numeric::EPSILON;
@@ -15,7 +17,7 @@ use super::numeric::lobe_series::{LobeSeries, Method};
 use super::numeric::scaled::Scaled;
 use super::quantity::Wavelength;
 use super::scene::{Component, FacetParameters, Model, Scene};
-use super::shadowing::Shadowing;
+use super::shadowing::ShadowingFunction;
 use super::torrance_sparrow::FacetLobe;
 use super::unified;
 use super::view::View;
@@ -121,9 +123,9 @@ pub(super) struct Kernel<'a> {
     scene: &'a Scene,
     quantity: Quantity,
     irradiance: f64,
-    medium: Medium,
-    polarization: Polarization,
-    shadowing: Shadowing,
+    /// Of the lobe; the spike has the mean plane's.
+    reflectivity: Reflectivity<'a>,
+    shadowing: ShadowingFunction,
     roughness: Option<RelativeRoughness>,
     view: Option<View>,
     facets: Option<FacetLobe>,
@@ -135,17 +137,22 @@ pub(super) struct Kernel<'a> {
 }
 
 impl<'a> Kernel<'a> {
-    /// The scene is evaluated in its components; `omitted_share` bounds what the others would add, relative.
-    pub(super) fn new(scene: &'a Scene, quantity: Quantity, omitted_share: f64) -> Self {
+    /// The scene is evaluated in its components; `omitted_share` bounds what the others would add, relative, and `averages` are
+    /// those of its sources.
+    pub(super) fn new(
+        scene: &'a Scene,
+        quantity: Quantity,
+        omitted_share: f64,
+        averages: &'a SlopeAverages,
+    ) -> Self {
         let p = scene.parameters();
         let wavelength = p.illumination.wavelength.map(Wavelength::get);
-        let shadowing = scene.shadowing();
+        let shadowing = scene.shadowing_function();
         Self {
             scene,
             quantity,
             irradiance: p.illumination.irradiance.get(),
-            medium: p.surface.medium,
-            polarization: p.illumination.polarization,
+            reflectivity: Reflectivity::of(scene, averages),
             shadowing,
             roughness: scene.relative_roughness(),
             view: p.sensor.zip(wavelength).map(|(sensor, wavelength)| View::new(sensor, wavelength)),
@@ -223,11 +230,9 @@ impl<'a> Kernel<'a> {
     fn reflect_by(&self, geometry: &Geometry, series: Option<&LobeSeries>) -> Reflection {
         let mut components = [None; 3];
         let mut evaluated_by = EvaluatedBy::ClosedForm;
-        let reflectance = match self.medium {
+        let of_lobe = || match self.reflectivity.medium {
             Medium::PerfectConductor => None,
-            Medium::Index(_) => {
-                Some(self.medium.reflectance(geometry.local_incidence(), self.polarization).into())
-            }
+            Medium::Index(_) => Some(self.reflectivity.energy(geometry).into()),
         };
         for &component in self.scene.evaluated() {
             let value = match component {
@@ -240,11 +245,11 @@ impl<'a> Kernel<'a> {
                             None => roughness.lobe(geometry, over, self.method),
                         };
                         evaluated_by = EvaluatedBy::Lobe(method);
-                        self.with_reflectance(lobe, reflectance)
+                        self.with_reflectance(self.with_shadowing_error(lobe), of_lobe())
                     })
                 }
-                Component::SpecularLobe => self.facet_lobe(geometry, reflectance),
-                Component::SpecularSpike => self.spike(geometry, reflectance),
+                Component::SpecularLobe => self.facet_lobe(geometry, of_lobe()),
+                Component::SpecularSpike => self.spike(geometry),
             };
             components[component.index()] = match self.quantity {
                 Quantity::ImageIrradiance { factor } => {
@@ -285,9 +290,13 @@ impl<'a> Kernel<'a> {
         }
         let g = unified::mirror_g(self.roughness?.height, 1.0, geometry.cos_i);
         let share = unified::lobe_share(g);
+        if share == 0.0 && matches!(self.shadowing, ShadowingFunction::Smith(_)) {
+            // At grazing 1 − e^{-g} goes with cos² θ_i, and Smith's G over both cosines not with more than 1/cos θ_i.
+            return Some(Estimate::ZERO);
+        }
         let (over_cosines, share) = match (self.quantity, self.shadowing) {
             // Nothing else makes up for the 1/cos θ_i of a BRDF: 1 − e^{-g} goes with cos² θ_i.
-            (Quantity::Brdf, Shadowing::None) => (
+            (Quantity::Brdf, ShadowingFunction::None) => (
                 self.shadowing.factor_over_cos_r(geometry),
                 if geometry.cos_i == 0.0 {
                     Scaled::ZERO
@@ -302,8 +311,14 @@ impl<'a> Kernel<'a> {
         Some(self.with_reflectance(lobe, reflectance))
     }
 
-    /// The spike of (47). Its BRDF divides by cos θ_i, which cancels one of the two it carries.
-    fn spike(&self, geometry: &Geometry, reflectance: Option<Estimate>) -> Option<Estimate> {
+    /// The spike of (47), with F′ at θ_i: it is what the mean plane reflects. Its BRDF divides by cos θ_i, which cancels one
+    /// of the two it carries.
+    fn spike(&self, geometry: &Geometry) -> Option<Estimate> {
+        let Reflectivity { medium, polarization, .. } = self.reflectivity;
+        let reflectance = match medium {
+            Medium::PerfectConductor => None,
+            Medium::Index(_) => Some(mean_plane(&medium, polarization, geometry).into()),
+        };
         let patch = self.view?.patch(geometry.cos_r);
         let power = match self.quantity {
             Quantity::Radiance | Quantity::ImageIrradiance { .. } => geometry.cos_i * geometry.cos_i,
@@ -312,7 +327,7 @@ impl<'a> Kernel<'a> {
         Some(self.with_reflectance(self.roughness?.spike(geometry, power, &patch), reflectance))
     }
 
-    /// (41) and (71): F′ at the half vector; and the irradiance where a radiance is asked for.
+    /// (41) and (71): F′; and the irradiance where a radiance is asked for.
     fn with_reflectance(&self, lobe: Estimate, reflectance: Option<Estimate>) -> Estimate {
         let reflected = match reflectance {
             None => lobe,
@@ -325,6 +340,14 @@ impl<'a> Kernel<'a> {
                 reflected.scaled_by(Scaled::new(self.irradiance))
             }
             Quantity::Brdf => reflected,
+        }
+    }
+
+    /// What Smith's G has more of an error than [`RelativeRoughness::lobe`] allows it.
+    fn with_shadowing_error(&self, lobe: Estimate) -> Estimate {
+        match self.shadowing {
+            ShadowingFunction::None | ShadowingFunction::VGroove => lobe,
+            ShadowingFunction::Smith(_) => lobe.widened(EPSILON * self.shadowing.units()),
         }
     }
 

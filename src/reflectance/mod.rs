@@ -3,6 +3,7 @@
 //! Numbers are parsed once, into the types of [`quantity`]; past that point nothing can fail.
 //! Errors are stated in units of ε = 2⁻⁵³ ([`numeric::EPSILON`]), the largest relative error of one rounding.
 
+pub mod albedo;
 pub mod beckmann_spizzichino;
 mod block;
 pub mod bounds;

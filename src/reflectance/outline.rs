@@ -1,7 +1,11 @@
 //! What of a scene is given: enough to check its parts against each other, also where some part could not be
 //! understood, so that everything that is wrong is told at once.
 
+use super::bounds::{self, Bounds};
+use super::fresnel_average::FresnelAverage;
+use super::quantity::{CorrelationLength, FacetSlope, RmsHeight};
 use super::scene::{Component, Components, Model, SceneParameters};
+use super::shadowing::Shadowing;
 
 /// A parameter by the name the core knows it by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +20,7 @@ pub enum Parameter {
 }
 
 /// Why parameters that are each in range do not make a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SceneError {
     /// A parameter that the model or a component needs is absent.
     Missing {
@@ -45,6 +49,54 @@ pub enum SceneError {
     },
     /// The list of components is empty.
     NoComponents,
+    /// The facets are too steep, or not steep enough, for what is asked for.
+    Slope {
+        /// What says how steep they are: σ_α, or σ_h for σ_h/T.
+        parameter: Parameter,
+        /// What it is.
+        value: f64,
+        /// What it is for.
+        needed_by: &'static str,
+        /// What would be accepted.
+        accepted: &'static Bounds,
+    },
+}
+
+/// What says how steep the facets are and what depends on it; each none where it is not given or not known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slopes {
+    /// σ_h
+    pub rms_height: Option<RmsHeight>,
+    /// T
+    pub correlation_length: Option<CorrelationLength>,
+    /// σ_α
+    pub facet_slope: Option<FacetSlope>,
+    /// How facets hide each other.
+    pub shadowing: Option<Shadowing>,
+    /// Over what F is averaged.
+    pub fresnel_average: Option<FresnelAverage>,
+}
+
+impl Slopes {
+    /// What is wrong with a lobe that has a σ_α of its own, or not.
+    fn errors(&self, has_own: bool) -> Vec<SceneError> {
+        let parameter = if has_own { Parameter::FacetSlope } else { Parameter::RmsHeight };
+        let heights = self.rms_height.zip(self.correlation_length);
+        let of_heights = heights.map(|(height, length)| height.get() / length.get());
+        let of_angles = self.facet_slope.map(FacetSlope::get);
+        let Some(value) = (if has_own { of_angles } else { of_heights }) else { return Vec::new() };
+        // Any slope of heights is right for Smith's Λ.
+        let smith = (has_own && self.shadowing.is_some_and(Shadowing::needs_slope))
+            .then_some(("Smith's shadowing", &bounds::FACET_SLOPE_INVERTIBLE));
+        let accepted = if has_own { &bounds::FACET_SLOPE_AVERAGED } else { &bounds::SLOPE_AVERAGED };
+        let average = (self.fresnel_average == Some(FresnelAverage::SlopeAverage))
+            .then_some(("the average of F over the slopes", accepted));
+        let needs = smith.into_iter().chain(average);
+        needs
+            .filter(|(_, accepted)| !accepted.contains(value))
+            .map(|(needed_by, accepted)| SceneError::Slope { parameter, value, needed_by, accepted })
+            .collect()
+    }
 }
 
 /// The components asked for, as far as they are known.
@@ -57,7 +109,7 @@ pub enum Listed {
 }
 
 /// What is known of a scene. Nothing is concluded from a part that is not known.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     /// The model, if known.
     pub model: Option<Model>,
@@ -65,6 +117,8 @@ pub struct Outline {
     pub components: Option<Listed>,
     /// The parameters that are certainly not given.
     pub absent: Vec<Parameter>,
+    /// How steep the facets are.
+    pub slopes: Slopes,
 }
 
 impl Outline {
@@ -85,6 +139,13 @@ impl Outline {
                 Components::Named(named) => Listed::Named(named.iter().copied().map(Some).collect()),
             }),
             absent: absences.into_iter().filter_map(|(absent, which)| absent.then_some(which)).collect(),
+            slopes: Slopes {
+                rms_height: p.surface.rms_height,
+                correlation_length: p.surface.correlation_length,
+                facet_slope: p.surface.facet_slope,
+                shadowing: p.surface.shadowing,
+                fresnel_average: p.surface.fresnel_average,
+            },
         }
     }
 
@@ -92,7 +153,12 @@ impl Outline {
     pub fn errors(&self) -> Vec<SceneError> {
         let mut errors = self.listing();
         if let (Some(model), Some(listed)) = (self.model, &self.components) {
-            errors.extend(self.missing(model, &self.evaluated(model, listed)));
+            let evaluated = self.evaluated(model, listed);
+            errors.extend(self.missing(model, &evaluated));
+            if evaluated.contains(&Component::SpecularLobe) {
+                let has_own = model != Model::BeckmannSpizzichino && !self.is_absent(Parameter::FacetSlope);
+                errors.extend(self.slopes.errors(has_own));
+            }
         }
         errors
     }

@@ -99,6 +99,8 @@ quantities! {
     InvertibleFacetSlope in FACET_SLOPE_INVERTIBLE;
     /// Beckmann's tan α₀ = 2`σ_h`/T, (77).
     BeckmannAlpha in SLOPE_RATIO;
+    /// σ_h/T of which F′ can be averaged over the slopes.
+    AveragedRatio in SLOPE_AVERAGED;
     /// γ of figure 10, degrees.
     OffAxis in OFF_AXIS;
     /// n of n − ik.

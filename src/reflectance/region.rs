@@ -58,6 +58,10 @@ pub(super) struct Region {
     pub(super) cos_i: Span,
     /// cos θ_r
     pub(super) cos_r: Span,
+    /// sin θ_i
+    pub(super) sin_i: Span,
+    /// sin θ_r, not negative
+    pub(super) sin_r: Span,
     /// q = cos θ_i + cos θ_r
     pub(super) cos_sum: Span,
     /// v_xy/k
@@ -86,7 +90,8 @@ impl Region {
         });
         let difference = Span::new(low, high).times(cos_sum);
         let sin_r = Span::new(low_r.sin, high_r.sin);
-        let sines = Span::new(low_i.sin, high_i.sin).times(sin_r).times(half_azimuth);
+        let sin_i = Span::new(low_i.sin, high_i.sin);
+        let sines = sin_i.times(sin_r).times(half_azimuth);
         let (straight, aside) = (difference.magnitude().squared(), sines);
         let horizontal = Span::new(
             (straight.least + 4.0 * aside.least).sqrt(),
@@ -97,12 +102,19 @@ impl Region {
         // The two terms may cancel; each is known to a few ε of the largest.
         let slack = 16.0 * EPSILON * (difference.magnitude().most + 2.0 * back.most);
         let along = Span::new(along.least - slack, along.most + slack).magnitude();
-        Self { cos_i, cos_r, cos_sum, horizontal, along, across: sin_r.times(sin_azimuth), direction }
+        let across = sin_r.times(sin_azimuth);
+        Self { cos_i, cos_r, sin_i, sin_r, cos_sum, horizontal, along, across, direction }
     }
 
     /// 4 cos² θ′ = q² + v_xy²/k²
     fn length_squared(&self) -> Span {
         self.cos_sum.squared().plus(self.horizontal.squared())
+    }
+
+    /// cos θ′
+    pub(super) fn cos_local(&self) -> Span {
+        let square = self.length_squared();
+        Span::new(0.5 * square.least.sqrt(), (0.5 * square.most.sqrt()).min(1.0))
     }
 
     /// q (1 + tan² α) of [`Geometry::facet_factor`]; q must not be 0.
@@ -161,7 +173,7 @@ mod tests {
     use crate::reflectance::directions::{Angles, Directions};
     use crate::reflectance::numeric::EPSILON;
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
-    use crate::reflectance::shadowing::Shadowing;
+    use crate::reflectance::shadowing::ShadowingFunction;
 
     #[test]
     fn every_direction_lies_within_its_region() {
@@ -223,7 +235,7 @@ mod tests {
                 if geometry.cos_sum > 0.0 && region.cos_sum.least > 0.0 {
                     assert!(holds(region.facet_factor(), geometry.facet_factor(), 0.0), "{angles:?}");
                     assert!(holds(region.alpha(), geometry.alpha(), 0.0), "{angles:?}");
-                    let shadowing = Shadowing::VGroove.factor(&geometry);
+                    let shadowing = ShadowingFunction::VGroove.factor(&geometry);
                     let cosine = geometry.cos_i.min(geometry.cos_r);
                     assert!(
                         shadowing <= region.groove().most * cosine * (1.0 + 64.0 * EPSILON),

@@ -4,15 +4,16 @@
 use super::beckmann_spizzichino::RelativeRoughness;
 use super::degrees::SinCos;
 use super::fresnel::{Medium, Polarization, RefractiveIndex};
+use super::fresnel_average::FresnelAverage;
 use super::numeric::lobe_series::Method;
 use super::outline::{Outline, SceneError};
 use super::quantity::{
-    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, RmsHeight, SpecularScale,
-    Tolerance, Wavelength,
+    Area, CorrelationLength, FacetSlope, Fraction, InvertibleFacetSlope, Irradiance, Length, OffAxis,
+    Quantity as _, RmsHeight, SpecularScale, Tolerance, Wavelength,
 };
 use super::radiometry::Camera;
-use super::roughness;
-use super::shadowing::Shadowing;
+use super::roughness::{self, BeckmannWidth, Widths};
+use super::shadowing::{Shadowing, ShadowingFunction};
 use super::torrance_sparrow;
 use core::hash::{Hash, Hasher};
 
@@ -35,6 +36,23 @@ pub struct Surface {
     pub specular_scale: Option<SpecularScale>,
     /// When absent: none for Beckmann-Spizzichino, V-groove for Torrance-Sparrow.
     pub shadowing: Option<Shadowing>,
+    /// Over what F of the lobe is averaged; the half vector when absent.
+    pub fresnel_average: Option<FresnelAverage>,
+}
+
+impl Surface {
+    /// Beckmann's m of the facets that make the lobe, which Smith's Λ speaks of: 2σ_h/T where the lobe follows from the
+    /// heights, tan √2σ_α by (79) where it has a σ_α of its own. None if neither is given, or σ_α is beyond (79). Relative
+    /// error below 8 ε.
+    pub fn slope(&self, model: Model) -> Option<BeckmannWidth> {
+        let widths = match self.facet_slope {
+            Some(slope) if model != Model::BeckmannSpizzichino => {
+                Widths::from_facet_slope(InvertibleFacetSlope::new(slope.get()).ok()?)
+            }
+            _ => Widths::from_heights(self.rms_height?, self.correlation_length?),
+        };
+        Some(widths.beckmann_alpha)
+    }
 }
 
 /// The light.
@@ -192,8 +210,13 @@ impl Scene {
             .as_ref()
             .map(|listed| outline.evaluated(parameters.model, listed))
             .unwrap_or_default();
+        Ok(Self::of_parts(parameters, evaluated))
+    }
+
+    /// Parameters that were checked, and the components to evaluate of them.
+    pub(super) fn of_parts(parameters: SceneParameters, evaluated: Vec<Component>) -> Self {
         let facets = FacetParameters::of(&parameters);
-        Ok(Self { parameters, evaluated, facets })
+        Self { parameters, evaluated, facets }
     }
 
     /// A scene of this crate's own making, complete by construction.
@@ -250,7 +273,12 @@ impl Scene {
             ("surface.diffuse_albedo", p.surface.diffuse_albedo.get() > 0.0 && !diffuse),
             ("surface.facet_slope_deg", p.surface.facet_slope.is_some() && !facet_lobe),
             ("surface.specular_scale", p.surface.specular_scale.is_some() && !facet_lobe),
-            ("surface.shadowing", p.surface.shadowing == Some(Shadowing::VGroove) && !lobe),
+            ("surface.shadowing", p.surface.shadowing.is_some_and(|given| given != Shadowing::None) && !lobe),
+            (
+                "surface.fresnel_average",
+                p.surface.fresnel_average.is_some_and(|given| given != FresnelAverage::HalfVector)
+                    && (!lobe || p.surface.medium == Medium::PerfectConductor),
+            ),
             ("accuracy.method", p.accuracy.method != Method::Auto && !height_lobe),
         ]
         .into_iter()
@@ -275,6 +303,31 @@ impl Scene {
             Model::BeckmannSpizzichino | Model::Lambertian => Shadowing::None,
             Model::TorranceSparrow | Model::Unified => Shadowing::VGroove,
         })
+    }
+
+    /// Over what F of the lobe is averaged: the caller's choice, or the half vector.
+    pub fn fresnel_average(&self) -> FresnelAverage {
+        self.parameters.surface.fresnel_average.unwrap_or(FresnelAverage::HalfVector)
+    }
+
+    /// Whether F has to be averaged over the slopes, which takes long.
+    pub fn averages_slopes(&self) -> bool {
+        self.fresnel_average() == FresnelAverage::SlopeAverage
+            && self.parameters.surface.medium != Medium::PerfectConductor
+            && self.evaluated.contains(&Component::SpecularLobe)
+    }
+
+    /// Beckmann's m of the facets of the lobe.
+    pub(super) fn slope(&self) -> Option<BeckmannWidth> {
+        self.parameters.surface.slope(self.parameters.model)
+    }
+
+    /// G of this surface.
+    pub(super) fn shadowing_function(&self) -> ShadowingFunction {
+        let shadowing = self.shadowing();
+        let slope = if shadowing.needs_slope() { self.slope() } else { None };
+        // A scene without a slope that its shadowing needs is none, or has no lobe that is shadowed.
+        shadowing.of_slope(slope).unwrap_or(ShadowingFunction::None)
     }
 }
 

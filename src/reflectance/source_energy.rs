@@ -1,18 +1,21 @@
 //! How much of a source's light the components send back, and how much of it meets the surface again: what warnings
 //! about energy rest on.
 
+use super::albedo;
 use super::degrees::SinCos;
 use super::directions::Directions;
 use super::facet_energy::{Facet, Facets};
 use super::findings::{Concern, Warning, WarningCode};
 use super::fresnel::{Medium, Polarization};
+use super::fresnel_average::FresnelAverage;
 use super::requirement;
 use super::scene::{Component, FacetParameters, Model, Scene};
-use super::shadowing::{Shadowing, smith_visible_roughly};
+use super::shadowing::{Shadowing, smith_lambda, smith_visible_roughly};
 use super::strain;
 use super::surface::Regime;
 use super::unified;
 use core::cell::OnceCell;
+use core::f64::consts::PI;
 
 /// What the quadrature may be off by; an albedo above 1 is told from this on.
 const COARSE: f64 = 0.05;
@@ -24,7 +27,8 @@ const STEEPEST: f64 = 85.0;
 const NODES: usize = 5;
 
 /// The facets of a scene and what they reflect.
-pub(super) struct SourceEnergy {
+pub(super) struct SourceEnergy<'a> {
+    scene: &'a Scene,
     /// Those of the lobe, if there is one whose facets are known.
     lobe: Option<Lobe>,
     /// ρ, where the diffuse lobe is there.
@@ -39,6 +43,8 @@ pub(super) struct SourceEnergy {
     rough_only: bool,
     medium: Medium,
     polarization: Polarization,
+    /// Over what F of the lobe is averaged.
+    average: FresnelAverage,
     /// Made when it is needed, as the facets are.
     fresnel: OnceCell<FresnelTable>,
 }
@@ -78,9 +84,9 @@ struct Lobe {
     shadowing: Shadowing,
 }
 
-impl SourceEnergy {
+impl<'a> SourceEnergy<'a> {
     /// None for a scene that cannot reflect more than arrives, nor twice.
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
+    pub(super) fn of(scene: &'a Scene) -> Option<Self> {
         let p = scene.parameters();
         let has = |component| scene.evaluated().contains(&component);
         let diffuse = if has(Component::DiffuseLobe) { p.surface.diffuse_albedo.get() } else { 0.0 };
@@ -88,6 +94,7 @@ impl SourceEnergy {
         let lobe = if has(Component::SpecularLobe) { Lobe::of(scene) } else { None };
         let spike = has(Component::SpecularSpike) || requirement::lacks_sensor(scene);
         (lobe.is_some() || diffuse > 0.0 && spike).then_some(Self {
+            scene,
             lobe,
             diffuse,
             spike,
@@ -96,6 +103,7 @@ impl SourceEnergy {
             rough_only: heights,
             medium: p.surface.medium,
             polarization: p.illumination.polarization,
+            average: scene.fresnel_average(),
             fresnel: OnceCell::new(),
         })
     }
@@ -111,25 +119,46 @@ impl SourceEnergy {
         let Some(lobe) = &self.lobe else { return (albedo, 0.0) };
         let again = scattered * lobe.again(source, theta_i);
         if self.rough_only && g.is_none_or(|g| g < Regime::ROUGH_FROM) {
-            // What the spike lacks the lobe has (errata E19).
-            return (0.0, again);
+            return (coherent + self.of_heights(lobe, source), again);
         }
         // The facets that face the source add up to 1 + Λ times what it sees of the plane: nothing to integrate where
         // that suffices.
-        let most =
-            albedo + scattered * lobe.strength() * (1.0 + strain::lambda(theta_i.min(STEEPEST), lobe.width));
+        let incident = strain::lambda(theta_i.min(STEEPEST), lobe.width);
+        let most = albedo + scattered * lobe.strength() * (1.0 + incident);
         if most <= 1.0 + COARSE {
             return (most, again);
         }
+        let common = match self.average {
+            FresnelAverage::HalfVector => None,
+            FresnelAverage::MeanPlane => Some(self.reflectance(source.cos)),
+            FresnelAverage::SlopeAverage => Some(lobe.slopes().mean(source, |local| self.reflectance(local))),
+        };
         albedo += scattered
             * lobe.facets().albedo(source, |facet| {
                 let seen = match lobe.shadowing {
                     Shadowing::None => 1.0,
                     Shadowing::VGroove => facet.groove(),
+                    Shadowing::Smith => lobe.seen(facet, incident, true),
+                    Shadowing::SmithUncorrelated => lobe.seen(facet, incident, false),
                 };
-                seen * self.reflectance(facet.cos_local)
+                seen * common.unwrap_or_else(|| self.reflectance(facet.cos_local))
             });
         (albedo, again)
+    }
+
+    /// The albedo of the lobe of (47) on a surface that is not rough, or 0 where that cannot make more than arrives: what the
+    /// spike lacks the lobe has (errata E19), but near grazing it has more.
+    fn of_heights(&self, lobe: &Lobe, source: SinCos) -> f64 {
+        // Waves spread the light as slopes of λ/(2π T cos θ_i) do.
+        let spread = self
+            .scene
+            .relative_roughness()
+            .map_or(0.0, |roughness| 0.5 / (PI * roughness.correlation_length * source.cos));
+        let width = libm::hypot(lobe.width, spread);
+        if source.sin == 0.0 || smith_lambda(source, width) <= COARSE {
+            return 0.0;
+        }
+        albedo::height_lobe_roughly(self.scene, source).unwrap_or(0.0)
     }
 
     /// F′
@@ -181,12 +210,15 @@ impl Lobe {
         if extreme < 90.0 && incident < 0.02 && strain::lambda(extreme, self.width) < 0.05 {
             return 0.0;
         }
-        let leaving = self.slopes().albedo(source, |facet: &Facet| {
-            let view = SinCos { sin: (1.0 - facet.cos_r * facet.cos_r).max(0.0).sqrt(), cos: facet.cos_r };
-            // 1/(1 + Λ_i + Λ_r)
-            1.0 / (incident + 1.0 / smith_visible_roughly(view, self.width))
-        });
+        let leaving = self.slopes().albedo(source, |facet| self.seen(facet, incident, true));
         (1.0 - leaving).max(0.0)
+    }
+
+    /// Smith's G of a facet from Λ_i: 1/(1 + Λ_i + Λ_r), or 1/((1 + Λ_i)(1 + Λ_r)) if not correlated.
+    fn seen(&self, facet: &Facet, incident: f64, correlated: bool) -> f64 {
+        let view = SinCos { sin: (1.0 - facet.cos_r * facet.cos_r).max(0.0).sqrt(), cos: facet.cos_r };
+        let from_there = smith_visible_roughly(view, self.width);
+        if correlated { 1.0 / (incident + 1.0 / from_there) } else { from_there / (1.0 + incident) }
     }
 }
 
@@ -200,7 +232,7 @@ pub(super) struct Sources {
 
 impl Sources {
     /// For sources between two zeniths, degrees.
-    pub(super) fn new(energy: &SourceEnergy, [from, to]: [f64; 2]) -> Self {
+    pub(super) fn new(energy: &SourceEnergy<'_>, [from, to]: [f64; 2]) -> Self {
         let count = if from == to { 1 } else { NODES };
         let step = if count == 1 { 0.0 } else { (to - from) / (count - 1) as f64 };
         Self { from, to, nodes: (0..count).map(|node| energy.at(from + step * node as f64)).collect() }

@@ -7,12 +7,12 @@ use super::degrees::{self, SinCos};
 use super::directions::{Directions, Extents};
 use super::findings::{Concern, Omitted, Warning, WarningCode};
 use super::requirement;
-use super::roughness;
+use super::roughness::BeckmannWidth;
 use super::scene::{Component, Model, Scene, Sensor};
 use super::shadowing::{Shadowing, smith_lambda};
 use super::source_energy::{SourceEnergy, Sources};
 use super::surface::{self, curvature_radius_in_wavelengths};
-use core::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+use core::f64::consts::PI;
 
 /// 4π r cos θ′ is to be so many wavelengths, as in [`surface::is_locally_flat`].
 const FLAT_FROM: f64 = 10.0;
@@ -55,19 +55,9 @@ pub(super) fn warnings(
 
 /// Beckmann's m = 2σ_h/T of the facets of the lobe; those of a σ_α by the inverse of (79).
 pub(super) fn slope_width(scene: &Scene) -> Option<f64> {
-    let surface = &scene.parameters().surface;
-    let heights = surface.rms_height.zip(surface.correlation_length);
-    if scene.parameters().model == Model::BeckmannSpizzichino || surface.facet_slope.is_none() {
-        return heights.map(|(height, length)| 2.0 * height.get() / length.get());
-    }
     // (79) has no inverse from 90°/√2 on: facets of every slope.
-    scene.facets.map(|facets| {
-        if SQRT_2 * facets.sigma_alpha < FRAC_PI_2 {
-            2.0 * roughness::height_to_length_ratio(facets.sigma_alpha).unwrap_or(0.0)
-        } else {
-            f64::INFINITY
-        }
-    })
+    let of_every_slope = || scene.parameters().surface.facet_slope.map(|_| f64::INFINITY);
+    scene.slope().map(BeckmannWidth::get).or_else(of_every_slope)
 }
 
 /// The warnings of a scene with a specular lobe.

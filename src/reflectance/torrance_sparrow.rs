@@ -8,7 +8,7 @@ use super::geometry::Geometry;
 use super::numeric::EPSILON;
 use super::numeric::quadrature;
 use super::numeric::scaled::Scaled;
-use super::shadowing::Shadowing;
+use super::shadowing::ShadowingFunction;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// (70) and (71) for every direction: c·a_f, σ_α and what the facets are made of.
@@ -22,8 +22,8 @@ pub struct FacetLobe {
     pub medium: Medium,
     /// h and v of (63).
     pub polarization: Polarization,
-    /// G of (65) or none.
-    pub shadowing: Shadowing,
+    /// G of (65), Smith's, or none.
+    pub shadowing: ShadowingFunction,
 }
 
 impl FacetLobe {
@@ -43,7 +43,7 @@ impl FacetLobe {
     ///
     /// `over_cosines` is G/cos θ_r for a radiance, G/(cos θ_i cos θ_r) for a BRDF; where it is infinite or NaN, so is
     /// the lobe. Error: 14 ε (α/σ_α)² for the exponential, whose angle is known to 6 ε and width to 5 ε, and 48 ε
-    /// for the factors.
+    /// for the factors, more if G is Smith's.
     pub fn lobe(&self, geometry: &Geometry, over_cosines: f64) -> Estimate {
         // A lobe without strength has no radiance at grazing either.
         if self.specular_scale == 0.0 {
@@ -55,10 +55,17 @@ impl FacetLobe {
         if over_cosines.is_infinite() {
             return Estimate::INFINITE;
         }
+        if over_cosines == 0.0 {
+            return Estimate::ZERO;
+        }
+        if geometry.length() == 0.0 {
+            // Both directions grazing and opposite: α depends on the path.
+            return Estimate::UNDEFINED;
+        }
         let ratio = geometry.alpha() / self.sigma_alpha;
         let square = ratio * ratio;
         let value = Scaled::exp(-0.5 * square) * (0.25 * over_cosines) * self.specular_scale;
-        Estimate::within(value, EPSILON * (14.0 * square + 48.0))
+        Estimate::within(value, EPSILON * (14.0 * square + 48.0 + self.shadowing.units()))
     }
 
     /// Radiance (70) under a beam of this irradiance on a plane normal to it (L_i dω_i), W m⁻² sr⁻¹.
@@ -108,7 +115,7 @@ mod tests {
     use crate::reflectance::geometry::Geometry;
     use crate::reflectance::numeric::EPSILON;
     use crate::reflectance::quantity::{Azimuth, Quantity, SourceZenith, ViewerZenith};
-    use crate::reflectance::shadowing::Shadowing;
+    use crate::reflectance::shadowing::ShadowingFunction;
     use core::f64::consts::PI;
 
     fn geometry(theta_i: f64, theta_r: f64) -> Geometry {
@@ -119,7 +126,7 @@ mod tests {
         )
     }
 
-    fn lobe(sigma_alpha: f64, shadowing: Shadowing) -> FacetLobe {
+    fn lobe(sigma_alpha: f64, shadowing: ShadowingFunction) -> FacetLobe {
         FacetLobe {
             sigma_alpha,
             specular_scale: 4.0,
@@ -153,11 +160,11 @@ mod tests {
     #[test]
     fn grazing_view_is_finite_with_grooves_and_infinite_without() {
         // Errata E38: σ_α = 13°, θ_i = 60°: L(90°) = 1.918 L(specular).
-        let rough = lobe(13f64.to_radians(), Shadowing::VGroove);
+        let rough = lobe(13f64.to_radians(), ShadowingFunction::VGroove);
         let ratio = rough.radiance(&geometry(60.0, 90.0), 1.0).value
             / rough.radiance(&geometry(60.0, 60.0), 1.0).value;
         assert!((ratio.to_f64() - 1.918).abs() < 0.0005, "{ratio:?}");
-        let bare = lobe(13f64.to_radians(), Shadowing::None);
+        let bare = lobe(13f64.to_radians(), ShadowingFunction::None);
         assert_eq!(bare.radiance(&geometry(60.0, 90.0), 1.0).value.to_f64(), f64::INFINITY);
         assert!(rough.radiance(&geometry(90.0, 90.0), 1.0).value.to_f64().is_nan());
     }
@@ -165,7 +172,8 @@ mod tests {
     #[test]
     fn the_logarithm_survives_where_the_value_does_not() {
         // α = 30° and σ = 1e-4°: exponent −(3e5)²/2, and 1/cos 60° = 2.
-        let radiance = lobe(1e-4f64.to_radians(), Shadowing::None).radiance(&geometry(0.0, 60.0), 1.0);
+        let radiance =
+            lobe(1e-4f64.to_radians(), ShadowingFunction::None).radiance(&geometry(0.0, 60.0), 1.0);
         assert_eq!(radiance.value.to_f64(), 0.0);
         let ln = radiance.value.ln();
         let exact = -4.5e10 + 2f64.ln();
@@ -176,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_lobe_without_strength_is_dark() {
-        let mut dark = lobe(0.1, Shadowing::None);
+        let mut dark = lobe(0.1, ShadowingFunction::None);
         dark.specular_scale = 0.0;
         assert!(dark.radiance(&geometry(60.0, 90.0), 1.0).value.is_zero());
     }

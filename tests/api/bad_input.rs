@@ -128,7 +128,7 @@ fn a_choice_that_is_wrong_has_its_pointer_and_its_code() {
             vec![("/surface/medium", json!({"n": 0, "k": -1}))],
             vec![("/surface/medium/k", "out_of_range"), ("/surface/medium/n", "out_of_range")],
         ),
-        (vec![("/surface/shadowing", json!("smith"))], vec![("/surface/shadowing", "not_offered")]),
+        (vec![("/surface/shadowing", json!("Smith"))], vec![("/surface/shadowing", "unknown_value")]),
         (vec![("/surface/shadowing", json!(true))], vec![("/surface/shadowing", "wrong_type")]),
         (
             vec![("/accuracy", json!({"method": "exact", "relative_tolerance": 1}))],

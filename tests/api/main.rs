@@ -1,6 +1,7 @@
 //! The service from outside: the real binary over real HTTP.
 
 mod access;
+mod albedo;
 mod at_once;
 mod bad_input;
 mod caching;
@@ -22,6 +23,7 @@ mod readme;
 mod secure;
 mod server;
 mod spectra;
+mod surfaces;
 mod telemetry;
 mod tradeoff;
 mod transport;

@@ -7,7 +7,7 @@ use crate::table::{Exact, Table};
 use reflectance::reflectance::fresnel::Medium;
 use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::scaled::Scaled;
-use reflectance::reflectance::shadowing::Shadowing;
+use reflectance::reflectance::shadowing::ShadowingFunction;
 use reflectance::reflectance::torrance_sparrow::FacetLobe;
 use std::sync::LazyLock;
 
@@ -27,7 +27,7 @@ fn check(line: &Line<'_>) {
         specular_scale: input("c_af"),
         medium,
         polarization: polarization(input("h"), input("v")),
-        shadowing: Shadowing::VGroove,
+        shadowing: ShadowingFunction::VGroove,
     };
     let no_f = FacetLobe { medium: Medium::PerfectConductor, ..lobe };
     let cint_f = row.cint("F").unwrap_or(0.0);
@@ -36,7 +36,7 @@ fn check(line: &Line<'_>) {
 
     line.value("theta_local", geometry.theta_local(), 0.0);
     line.value("alpha", geometry.alpha(), 0.0);
-    line.value("G", Shadowing::VGroove.factor(&geometry), 0.0);
+    line.value("G", ShadowingFunction::VGroove.factor(&geometry), 0.0);
     let reflectance = medium.reflectance(geometry.local_incidence(), lobe.polarization);
     line.value("F", reflectance.value, cint_f);
     line.bound("F", reflectance.value, reflectance.error);
@@ -47,8 +47,12 @@ fn check(line: &Line<'_>) {
     let radiance = |lobe: FacetLobe| lobe.radiance(&geometry, beam).value;
     line.scaled("L_spec", radiance(lobe), cint_lobe);
     line.scaled("L_spec_noF", radiance(no_f), cint_gauss);
-    line.scaled("L_spec_noG", radiance(FacetLobe { shadowing: Shadowing::None, ..lobe }), cint_lobe);
-    line.scaled("L_spec_noFG", radiance(FacetLobe { shadowing: Shadowing::None, ..no_f }), cint_gauss);
+    line.scaled("L_spec_noG", radiance(FacetLobe { shadowing: ShadowingFunction::None, ..lobe }), cint_lobe);
+    line.scaled(
+        "L_spec_noFG",
+        radiance(FacetLobe { shadowing: ShadowingFunction::None, ..no_f }),
+        cint_gauss,
+    );
 
     // (57) with κ_diff itself, which the oracle does not bind to an albedo.
     let cos_i = geometry.cos_i.max(0.0);
@@ -57,7 +61,7 @@ fn check(line: &Line<'_>) {
     let cint = mixed([(row.exact("L_spec").log10(), cint_lobe), (row.exact("L_diff").log10(), 0.0)]);
     line.scaled("L", radiance(lobe) + diffuse, cint);
     line.value("I_s", beam * cos_i, 0.0);
-    let over_cosines = Shadowing::VGroove.factor_over_cos_r(&geometry) / cos_i;
+    let over_cosines = ShadowingFunction::VGroove.factor_over_cos_r(&geometry) / cos_i;
     let brdf = lobe.lobe(&geometry, over_cosines).value * reflectance.value;
     line.scaled("f_spec", brdf, cint_lobe);
     line.scaled("f_r", brdf + Scaled::new(input("kappa_diff")), cint);

@@ -10,7 +10,7 @@ use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::numeric::quadrature::{Integral, integrate_to};
 use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::quantity::{Fraction, Irradiance, Quantity};
-use reflectance::reflectance::shadowing::Shadowing;
+use reflectance::reflectance::shadowing::ShadowingFunction;
 use reflectance::reflectance::torrance_sparrow::{FacetLobe, normalized_scale};
 
 /// ∫ `flux` dω over the hemisphere of viewers, cut where a lobe of this `width` (radians) about the mirror direction
@@ -156,7 +156,7 @@ fn facets_of_a_perfect_conductor_send_everything_back() {
             specular_scale: normalized_scale(sigma_alpha),
             medium: Medium::PerfectConductor,
             polarization: Polarization::unpolarized(),
-            shadowing: Shadowing::None,
+            shadowing: ShadowingFunction::None,
         };
         // At normal incidence facets up to 45° reflect upwards; beyond 9 σ there are none (e^{−40}).
         let share = over_hemisphere(0.0, 2.0 * sigma_alpha, 1e-14, |geometry| {

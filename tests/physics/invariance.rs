@@ -28,6 +28,7 @@ fn scene(model: Model, unit: f64) -> Scene {
             diffuse_albedo: Fraction::new(0.3).unwrap(),
             specular_scale: None,
             shadowing: None,
+            fresnel_average: None,
         },
         illumination: Illumination {
             wavelength: Some(Wavelength::new(length(0.55)).unwrap()),

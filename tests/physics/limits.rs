@@ -7,10 +7,10 @@ use reflectance::reflectance::geometry::Geometry;
 use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::numeric::scaled::Scaled;
 use reflectance::reflectance::quantity::{
-    CorrelationLength, IndexK, IndexN, InvertibleFacetSlope, Quantity, RmsHeight,
+    BeckmannAlpha, CorrelationLength, IndexK, IndexN, InvertibleFacetSlope, Quantity, RmsHeight,
 };
 use reflectance::reflectance::roughness::{Widths, facet_slope_radians, height_to_length_ratio};
-use reflectance::reflectance::shadowing::Shadowing;
+use reflectance::reflectance::shadowing::{Shadowing, ShadowingFunction};
 use reflectance::reflectance::surface::facet_density;
 use reflectance::reflectance::torrance_sparrow::FacetLobe;
 
@@ -32,6 +32,12 @@ const ROUGHNESS: [RelativeRoughness; 4] = [
     RelativeRoughness { height: 40.0, correlation_length: 100.0 },
 ];
 
+/// Every shadowing, on slopes of this m.
+fn shadowings(width: f64) -> [ShadowingFunction; 4] {
+    let slope = Widths::from_beckmann_alpha(BeckmannAlpha::new(width).expect("m")).beckmann_alpha;
+    Shadowing::ALL.map(|shadowing| shadowing.of_slope(Some(slope)).expect("a slope"))
+}
+
 #[test]
 fn the_lobes_are_reciprocal() {
     let facets = FacetLobe {
@@ -39,10 +45,10 @@ fn the_lobes_are_reciprocal() {
         specular_scale: 4.0,
         medium: Medium::PerfectConductor,
         polarization: Polarization::unpolarized(),
-        shadowing: Shadowing::VGroove,
+        shadowing: ShadowingFunction::VGroove,
     };
     for (there, back) in pairs() {
-        for shadowing in [Shadowing::None, Shadowing::VGroove] {
+        for shadowing in shadowings(0.3) {
             let (over_there, over_back) =
                 (shadowing.factor_over_cosines(&there), shadowing.factor_over_cosines(&back));
             for roughness in ROUGHNESS {
@@ -101,10 +107,15 @@ fn the_rough_limit_is_the_microfacet_form_with_beckmanns_density() {
 #[test]
 fn shadowing_is_symmetric_and_at_most_one() {
     for (there, back) in pairs() {
-        let (g, swapped) = (Shadowing::VGroove.factor(&there), Shadowing::VGroove.factor(&back));
-        assert!((0.0..=1.0).contains(&g), "{there:?} {g}");
-        assert_close(g, swapped, 32.0);
-        assert_eq!(Shadowing::None.factor(&there), 1.0);
+        for width in [1e-9, 0.05, 0.3, 2.0, 1e9] {
+            for shadowing in shadowings(width) {
+                let (g, swapped) = (shadowing.factor(&there), shadowing.factor(&back));
+                assert!((0.0..=1.0).contains(&g), "{shadowing:?} {there:?} {g}");
+                // Both are known to 16 ε, or 16 and 40 ε, of the exact one, which is symmetric.
+                assert_close(g, swapped, 56.0);
+            }
+        }
+        assert_eq!(ShadowingFunction::None.factor(&there), 1.0);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use reflectance::reflectance::directions::{Angles, Directions};
 use reflectance::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
+use reflectance::reflectance::fresnel_average::FresnelAverage;
 use reflectance::reflectance::numeric::lobe_series::Method;
 use reflectance::reflectance::quantity::{
     Area, Azimuth, Fraction, IndexK, IndexN, Length, Quantity as InRange, SourceZenith, SpecularScale,
@@ -90,7 +91,9 @@ pub(crate) fn scene(random: &mut Random) -> SceneParameters {
             diffuse_albedo: Fraction::new(albedo).unwrap(),
             specular_scale: (random.index(5) == 0)
                 .then(|| SpecularScale::new(random.power(-6.0, 3.0)).unwrap()),
-            shadowing: [None, Some(Shadowing::None), Some(Shadowing::VGroove)][random.index(3)],
+            shadowing: [None, Some(Shadowing::None), Some(Shadowing::VGroove), Some(Shadowing::Smith)]
+                [random.index(4)],
+            fresnel_average: [None, None, Some(FresnelAverage::MeanPlane)][random.index(3)],
         },
         illumination: Illumination {
             wavelength: Some(in_range(wavelength)),

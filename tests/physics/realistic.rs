@@ -93,6 +93,7 @@ impl Realistic {
                 diffuse_albedo: in_range(self.diffuse_albedo),
                 specular_scale: None,
                 shadowing: None,
+                fresnel_average: None,
             },
             illumination: Illumination {
                 wavelength: Some(in_range(wavelength)),

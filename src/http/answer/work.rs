@@ -6,10 +6,10 @@ use crate::http::app::Limits;
 use crate::http::edge::Meter;
 use crate::http::encode::rows::RowFormat;
 use crate::http::problem::{Code, FieldError, Problem};
-use crate::reflectance::bounds::MAX_SERIES;
+use crate::reflectance::bounds::{MAX_AVERAGED, MAX_SERIES};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
-use crate::reflectance::evaluate::{Output, Prepared, Quantity, expected_cost};
+use crate::reflectance::evaluate::{Output, Prepared, Quantity, average_cost, expected_cost};
 use crate::reflectance::findings::Warning;
 use crate::reflectance::linear_image::LinearScene;
 use crate::reflectance::material::Lookup;
@@ -160,10 +160,26 @@ impl Work {
         } else if series > MAX_SERIES {
             (series, "series (fixed angles times wavelengths)", MAX_SERIES)
         } else {
-            return Ok(());
+            let what = "zeniths of the source, over all series, with fresnel_average slope_average";
+            (self.averaged_sources(), what, MAX_AVERAGED)
         };
+        if number <= limit {
+            return Ok(());
+        }
         let detail = format!("{number} {what} in one request: at most {limit} are answered");
         Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
+    }
+
+    /// Zeniths of the source under which F is averaged over the slopes, at each wavelength anew.
+    fn averaged_sources(&self) -> usize {
+        let sources = match &self.subject {
+            Subject::Scene { scene, .. } if scene.averages_slopes() => match &self.over {
+                Over::Directions(directions) => directions.distinct_sources(),
+                Over::Sweep(sweep) => sweep.sources(),
+            },
+            Subject::Scene { .. } | Subject::Linear { .. } => 0,
+        };
+        sources * self.spectrum().map_or(1, <[Line]>::len)
     }
 
     /// Finds what a curve requires, `index` below [`Self::curves`].
@@ -257,7 +273,14 @@ impl Work {
 
     /// Nanoseconds of all of it, likewise.
     pub(super) fn nanoseconds(&self, format: Option<RowFormat>) -> f64 {
-        self.nanoseconds_a_row(format) * self.rows() as f64 + CURVE * self.curves() as f64
+        self.nanoseconds_a_row(format) * self.rows() as f64
+            + self.nanoseconds_a_curve() * self.curves() as f64
+    }
+
+    /// Of a curve, those besides its rows.
+    fn nanoseconds_a_curve(&self) -> f64 {
+        let averages = average_cost(self.averaged_sources()) / self.curves() as f64;
+        CURVE + EXPONENTIAL * averages
     }
 
     /// Consecutive curves that are about a millisecond of work together; none where one is that much by itself.
@@ -265,7 +288,7 @@ impl Work {
         &self,
         format: Option<RowFormat>,
     ) -> Option<impl Iterator<Item = Range<usize>> + Send + use<>> {
-        let curve = self.nanoseconds_a_row(format) * self.points() as f64 + CURVE;
+        let curve = self.nanoseconds_a_row(format) * self.points() as f64 + self.nanoseconds_a_curve();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and small")]
         let together = (PIECE / curve) as usize;
         let curves = self.curves();

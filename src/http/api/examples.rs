@@ -58,6 +58,14 @@ const MIRROR: &str = r#"{"model": "beckmann_spizzichino",
 const LAMBERTIAN: &str = r#"{"model": "lambertian", "surface": {"diffuse_albedo": 0.8},
  "illumination": {"irradiance": 3.141592653589793}, "geometry": {"theta_i_deg": 60, "theta_r_deg": 20}}"#;
 
+const ALBEDO: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.1, "correlation_length_um": 5, "medium": {"n": 1.37, "k": 7.62}},
+ "illumination": {"wavelength_um": 0.633}, "theta_i_deg": [0, 30, 60, 75]}"#;
+
+const BRIGHT: &str = r#"{"model": "torrance_sparrow",
+ "surface": {"rms_height_um": 3, "correlation_length_um": 20, "shadowing": "none"},
+ "theta_i_deg": [0, 45, 60, 75, 80, 85], "accuracy": {"relative_tolerance": 1e-9}}"#;
+
 const DIAGRAM: &str = r#"{"quantity": "brdf", "model": "beckmann_spizzichino",
  "surface": {"rms_height_um": 0.5, "correlation_length_um": 5},
  "illumination": {"wavelength_um": 0.5},
@@ -114,6 +122,8 @@ pub(crate) const BODIES: &[Example] = &[
         FIRST,
     ),
     example("/v1/brdf", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+    example("/v1/albedo", "aluminium", "How spike and lobe of a metal share the energy", ALBEDO),
+    example("/v1/albedo", "above_one", "Facets without shadowing reflect more than arrives", BRIGHT),
     example(
         "/v1/plan",
         "polished_metal",

@@ -4,7 +4,7 @@ use crate::http::input::medium::MediumWire;
 use crate::http::input::object::object;
 use crate::http::input::reader::{ElementErrors, Reader};
 use crate::http::input::values::OneOrMany;
-use crate::http::problem::Code;
+use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::bounds::MAX_WAVELENGTHS;
 use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::material::{Lookup, Material, Source};
@@ -45,6 +45,20 @@ pub(crate) enum Light {
     One(Option<Lookup>),
     /// At each of these, an answer for each.
     Spectrum(Vec<Line>),
+}
+
+impl Light {
+    /// What was looked up, for a resource that answers one wavelength.
+    pub(super) fn single(self) -> Result<Option<Lookup>, Problem> {
+        match self {
+            Self::One(lookup) => Ok(lookup),
+            Self::Spectrum(_) => {
+                let pointer = "/illumination/wavelength_um".to_owned();
+                let detail = "an array: this resource answers one wavelength, expected a number".to_owned();
+                Err(Problem::invalid(vec![FieldError { pointer, code: Code::WrongType, detail }]))
+            }
+        }
+    }
 }
 
 impl Line {

@@ -1,5 +1,6 @@
 //! One file a resource: wire types, handler and its `OpenAPI` note.
 
+pub(super) mod albedo;
 pub(super) mod answer;
 pub(super) mod diagrams;
 pub(super) mod documents;

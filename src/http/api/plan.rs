@@ -153,7 +153,9 @@ pub(crate) async fn plan(
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), scene, .. } = request;
     let (scene, lookup) = scene.single()?;
-    compute::run(deadline, directions.count(), move || {
+    // An average over slopes takes as long as a thousand directions.
+    let effort = if scene.averages_slopes() { usize::MAX } else { directions.count() };
+    compute::run(deadline, effort, move || {
         json::response(&PlanAnswer::new(Plan::of(&scene, &directions), lookup), 4096)
     })
     .await?

@@ -6,12 +6,13 @@ use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
-use crate::http::problem::{Code, FieldError, Problem};
+use crate::http::problem::{Code, Problem};
 use crate::reflectance::bounds::DEFAULT_TOLERANCE;
 use crate::reflectance::fresnel::Polarization;
+use crate::reflectance::fresnel_average::FresnelAverage;
 use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
-use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError};
+use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError, Slopes};
 use crate::reflectance::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
     SpecularScale, Tolerance,
@@ -43,8 +44,14 @@ object! {
         /// add up to the mean plane's.
         specular_scale: Option<SpecularScale>,
         /// How facets hide each other. Absent or null: `none` for Beckmann-Spizzichino, `v_groove` (65) for
-        /// Torrance-Sparrow and the unified model.
+        /// Torrance-Sparrow and the unified model. `smith` is a surface of Gaussian slopes, 1/(1 + Λ_i + Λ_r),
+        /// `smith_uncorrelated` 1/((1 + Λ_i)(1 + Λ_r)); their m is 2σ_h/T, or tan √2σ_α (79) where the lobe has a
+        /// `facet_slope_deg` of its own.
         shadowing: Option<Shadowing>,
+        /// Over what the F of a finite conductor's lobe is averaged, (41): the facets that mirror the source to the
+        /// viewer (`half_vector`, when absent or null), the mean plane (`mean_plane`), or all facets that face the source
+        /// (`slope_average`, for σ_h/T up to 4). The spike always has the mean plane's.
+        fresnel_average: Option<FresnelAverage>,
     }
 }
 
@@ -176,7 +183,7 @@ object! {
     partial
     /// How exactly, and by which method.
     AccuracyWire as "Accuracy" {
-        /// Of the total, per direction; 1e-9 when absent or null.
+        /// Of the total, per direction; 1e-9 when absent or null (1e-6 of an albedo).
         relative_tolerance: Option<Tolerance>,
         /// How the lobe series is evaluated: `series` sums to convergence, `paper` the first 100 terms as the
         /// authors did, `uniform` is a saddle-point expansion, `smooth` is (48) corrected, `rough` is (49). A named
@@ -209,7 +216,7 @@ object! {
 
 impl SceneWire {
     /// What is known, for the checks of the parts against each other.
-    fn outline(&self) -> Outline {
+    pub(super) fn outline(&self) -> Outline {
         let surface = self.surface.as_ref();
         let light = self.illumination.as_ref();
         let absences = [
@@ -227,11 +234,18 @@ impl SceneWire {
             model: self.model,
             components: self.components.as_ref().map(|listed| listed.clone().unwrap_or(Listed::Auto)),
             absent: absences.into_iter().filter_map(|(absent, which)| absent.then_some(which)).collect(),
+            slopes: surface.map_or_else(Slopes::default, |s| Slopes {
+                rms_height: s.rms_height_um.flatten(),
+                correlation_length: s.correlation_length_um.flatten(),
+                facet_slope: s.facet_slope_deg.flatten(),
+                shadowing: s.shadowing.flatten(),
+                fresnel_average: s.fresnel_average.flatten(),
+            }),
         }
     }
 
     /// The light with what is looked up in it, as far as it could be read.
-    fn lit(&self, reader: &mut Reader) -> Option<Lit> {
+    pub(super) fn lit(&self, reader: &mut Reader) -> Option<Lit> {
         let wavelengths = match self.illumination.as_ref()? {
             Some(light) => light.wavelength_um.as_ref().map(Option::as_ref),
             None => Some(None),
@@ -240,7 +254,7 @@ impl SceneWire {
     }
 
     /// The parameters in a light, if all could be read.
-    fn into_parameters(self, lit: &Lit) -> Option<SceneParameters> {
+    pub(super) fn into_parameters(self, lit: &Lit, default_tolerance: f64) -> Option<SceneParameters> {
         let (surface, accuracy) = (self.surface?, self.accuracy?);
         let (irradiance, polarization) = match self.illumination? {
             Some(light) => (light.irradiance?, light.polarization?),
@@ -260,6 +274,7 @@ impl SceneWire {
                 diffuse_albedo: surface.diffuse_albedo?.unwrap_or(Fraction::ZERO),
                 specular_scale: surface.specular_scale?,
                 shadowing: surface.shadowing?,
+                fresnel_average: surface.fresnel_average?,
             },
             illumination: scene::Illumination {
                 wavelength: lit.wavelength,
@@ -272,7 +287,7 @@ impl SceneWire {
                 Some(Listed::Named(named)) => Components::Named(named.into_iter().collect::<Option<_>>()?),
             },
             accuracy: Accuracy {
-                relative_tolerance: tolerance.or_else(|| Tolerance::new(DEFAULT_TOLERANCE).ok())?,
+                relative_tolerance: tolerance.or_else(|| Tolerance::new(default_tolerance).ok())?,
                 method: method.unwrap_or(Method::Auto),
             },
         })
@@ -290,14 +305,7 @@ pub(crate) struct CheckedScene {
 impl CheckedScene {
     /// The scene of a resource that answers one wavelength, and what was looked up for its medium.
     pub(crate) fn single(self) -> Result<(Scene, Option<Lookup>), Problem> {
-        match self.light {
-            Light::One(lookup) => Ok((self.scene, lookup)),
-            Light::Spectrum(_) => {
-                let pointer = "/illumination/wavelength_um".to_owned();
-                let detail = "an array: this resource answers one wavelength, expected a number".to_owned();
-                Err(Problem::invalid(vec![FieldError { pointer, code: Code::WrongType, detail }]))
-            }
-        }
+        Ok((self.scene, self.light.single()?))
     }
 }
 
@@ -312,7 +320,7 @@ impl WireObject for CheckedScene {
         }
         let lit = wire.lit(reader)?;
         // What is wrong with the whole was just noted.
-        let scene = Scene::new(wire.into_parameters(&lit)?).ok()?;
+        let scene = Scene::new(wire.into_parameters(&lit, DEFAULT_TOLERANCE)?).ok()?;
         Some(Self { scene, light: lit.light })
     }
 
@@ -334,7 +342,7 @@ impl WireObject for CheckedScene {
 }
 
 /// Notes what the core found at the field that a client knows.
-fn note(error: &SceneError, reader: &mut Reader) {
+pub(super) fn note(error: &SceneError, reader: &mut Reader) {
     match error {
         SceneError::Missing { parameter, needed_by, unless } => {
             let unless = unless.map(|other| format!(", unless {} is given", place(other).1));
@@ -360,6 +368,13 @@ fn note(error: &SceneError, reader: &mut Reader) {
         }
         SceneError::Repeated { position, component } => {
             at_component(*position, Code::Duplicate, format!("{} is named twice", component.name()), reader);
+        }
+        SceneError::Slope { parameter, value, needed_by, accepted } => {
+            let detail = format!("{} {value} is outside: {needed_by} needs {accepted}", accepted.name);
+            let (object, field) = place(*parameter);
+            reader.within(object, |reader| {
+                reader.within(field, |reader| reader.error(Code::OutOfRange, detail));
+            });
         }
         SceneError::NoComponents => reader.within("components", |reader| {
             reader.error(Code::Empty, "the array is empty: expected \"auto\" or at least one component");

@@ -139,7 +139,7 @@ impl TradeoffAnswer {
 ///
 /// Takes a request of `/v1/radiance`, evaluates it by every method, and answers each one's true error against the
 /// converged series, its stated bound and the time it takes here and now. Of more than 64 directions 64 are measured.
-/// A measurement takes 50 ms at most, and waits for those before it.
+/// A measurement takes 50 ms at most, longer with `slope_average` under many sources, and waits for those before it.
 #[utoipa::path(
     post,
     path = "/v1/tradeoff",

@@ -12,6 +12,7 @@ use crate::http::problem::Code;
 use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
 use crate::reflectance::directions::Angles;
 use crate::reflectance::fresnel::Polarization;
+use crate::reflectance::fresnel_average::FresnelAverage;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::Listed;
 use crate::reflectance::quantity::{Fraction, Quantity};
@@ -24,6 +25,8 @@ named! {
     Model, "a model", Model::ALL;
     Component, "a component", Component::ALL;
     Method, "a method", Method::ALL;
+    Shadowing, "a shadowing", Shadowing::ALL;
+    FresnelAverage, "an average of F", FresnelAverage::ALL;
 }
 
 /// One angle for all directions or one for each, as far as it could be read.
@@ -315,31 +318,6 @@ impl Wire for Polarization {
         let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
         parameters.extend(MixWire::query_parameters(false));
         parameters
-    }
-}
-
-/// The shadowings that this version offers.
-const SHADOWINGS: [Shadowing; 2] = [Shadowing::None, Shadowing::VGroove];
-
-impl super::wire::Named for Shadowing {
-    const WHAT: &'static str = "a shadowing";
-    const ALL: &'static [Self] = &SHADOWINGS;
-    fn wire_name(self) -> &'static str {
-        self.name()
-    }
-}
-
-impl Wire for Shadowing {
-    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        if node == Node::Text("smith".to_owned()) {
-            return reader
-                .fail(Code::NotOffered, "\"smith\" is not offered yet: expected one of none, v_groove");
-        }
-        read_named(&node, reader)
-    }
-
-    fn schema() -> RefOr<Schema> {
-        named_schema::<Self>()
     }
 }
 

@@ -3,26 +3,25 @@
 
 use super::{G_UNITS, PREFACTOR_UNITS, RelativeRoughness, X_UNITS};
 use crate::reflectance::fresnel::lanes::ReflectanceLanes;
-use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::fresnel_average::table::Reflectivity;
 use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::elementary::{binary_exponent, scale};
 use crate::reflectance::numeric::lobe_series::lanes::{self, Batch, Choice, LANES, Lanes};
 use crate::reflectance::numeric::lobe_series::{LobeSeries, Method, ROUNDING_UNITS};
-use crate::reflectance::shadowing::Shadowing;
+use crate::reflectance::shadowing::ShadowingFunction;
 use crate::reflectance::shadowing::lanes::{Cosines, over_cosines};
 use core::f64::consts::PI;
 
 /// What the directions of a block have in common.
 #[derive(Clone, Copy)]
-pub(in crate::reflectance) struct Common {
+pub(in crate::reflectance) struct Common<'a> {
     pub(in crate::reflectance) roughness: RelativeRoughness,
-    pub(in crate::reflectance) medium: Medium,
-    pub(in crate::reflectance) polarization: Polarization,
+    pub(in crate::reflectance) reflectivity: Reflectivity<'a>,
     /// What multiplies the lobe: the irradiance for a radiance, 1 for a BRDF.
     pub(in crate::reflectance) strength: f64,
-    pub(in crate::reflectance) shadowing: Shadowing,
+    pub(in crate::reflectance) shadowing: ShadowingFunction,
     pub(in crate::reflectance) cosines: Cosines,
 }
 
@@ -96,11 +95,11 @@ impl LobeLanes {
     pub(in crate::reflectance) fn combine(
         &mut self,
         set: InstructionSet,
-        common: Common,
+        common: Common<'_>,
         geometries: &Geometries,
         count: usize,
     ) {
-        self.reflectance.fill(set, common.medium, common.polarization, geometries, count);
+        self.reflectance.fill(set, common.reflectivity, geometries, count);
         over_cosines(set, common.shadowing, common.cosines, geometries, count, &mut self.over_cosines);
         combined(set, common, geometries, count, self);
     }
@@ -132,11 +131,12 @@ fn g_and_x(roughness: RelativeRoughness, geometries: &Geometries, g: &mut [f64],
 }
 
 vectorized! {
-    fn combined = value_and_bound, (common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes)
+    fn combined = value_and_bound, (common: Common<'_>, geometries: &Geometries, count: usize, lobe: &mut LobeLanes)
 }
 
 #[inline(always)]
-fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: &mut LobeLanes) {
+fn value_and_bound(common: Common<'_>, geometries: &Geometries, count: usize, lobe: &mut LobeLanes) {
+    let prefactor = ROUNDING_UNITS + PREFACTOR_UNITS + common.shadowing.units();
     for lane in 0..count.min(LANES) {
         let (cos_sum, horizontal) = (geometries.cos_sum[lane], geometries.horizontal[lane]);
         let length_squared = cos_sum * cos_sum + horizontal * horizontal;
@@ -146,7 +146,7 @@ fn value_and_bound(common: Common, geometries: &Geometries, count: usize, lobe: 
         let (significand, exponent) = (factor * lobe.series.significand[lane], lobe.series.exponent[lane]);
         let (condition_g, condition_x) = (lobe.series.condition_g[lane], lobe.series.condition_x[lane]);
         let rounding = EPSILON
-            * ((ROUNDING_UNITS + PREFACTOR_UNITS)
+            * (prefactor
                 + (ROUNDING_UNITS + G_UNITS) * condition_g
                 + (ROUNDING_UNITS + X_UNITS) * condition_x)
             + lobe.reflectance.distance[lane];

@@ -2,6 +2,8 @@
 
 use super::super::directions::{Angles, Directions};
 use super::super::fresnel::{Medium, Polarization, RefractiveIndex};
+use super::super::fresnel_average::FresnelAverage;
+use super::super::fresnel_average::table::SlopeAverages;
 use super::super::geometry::Geometry;
 use super::super::kernel::{Kernel, Quantity};
 use super::super::numeric::dispatch::InstructionSet;
@@ -76,11 +78,12 @@ fn scene(random: &mut Random) -> Scene {
         surface: Surface {
             rms_height: Some(in_range(height)),
             correlation_length: Some(in_range(height * 10f64.powf(random.between(0.0, 3.0)))),
-            facet_slope: (random.unit() < 0.5).then(|| in_range(10f64.powf(random.between(-3.0, 2.0)))),
+            facet_slope: (random.unit() < 0.5).then(|| in_range(10f64.powf(random.between(-3.0, 1.8)))),
             medium: medium(random),
             diffuse_albedo: in_range(random.one_of(&[0.0, 1.0]) * 10f64.powf(random.between(-30.0, 0.0))),
             specular_scale: random.one_of(&[None, None, Some(in_range(0.0)), Some(in_range(7.0))]),
-            shadowing: random.one_of(&[Some(Shadowing::None), Some(Shadowing::VGroove)]),
+            shadowing: Some(random.one_of(&Shadowing::ALL)),
+            fresnel_average: random.one_of(&[None, Some(FresnelAverage::MeanPlane)]),
         },
         illumination: Illumination {
             wavelength: Some(in_range(1.0)),
@@ -167,7 +170,8 @@ fn blocks_agree_with_single_directions_within_both_bounds() {
     for _ in 0..6_000 {
         let scene = scene(&mut random);
         let quantity = random.one_of(&[Quantity::Radiance, Quantity::Brdf]);
-        let kernel = Kernel::new(&scene, quantity, 0.0);
+        let averages = SlopeAverages::default();
+        let kernel = Kernel::new(&scene, quantity, 0.0, &averages);
         let angles = angles(&mut random);
         let together = numbers(InstructionSet::widest(), &scene, &kernel, &angles);
         for set in InstructionSet::available() {

@@ -1,6 +1,10 @@
 //! F′ of (63) in many directions at once, where it is known well.
 
-use super::{Energy, Medium, Polarization};
+use super::{Energy, Medium, RefractiveIndex};
+use crate::reflectance::degrees::SinCos;
+use crate::reflectance::fresnel_average::FresnelAverage;
+use crate::reflectance::fresnel_average::table::Reflectivity;
+use crate::reflectance::geometry::Geometry;
 use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::lobe_series::lanes::{LANES, Lanes};
@@ -9,7 +13,7 @@ use crate::reflectance::numeric::lobe_series::lanes::{LANES, Lanes};
 /// there is next to no surface.
 const LARGEST_ERROR: f64 = 0.1;
 
-/// F′ at the half vector of each direction.
+/// F′ of each direction.
 pub(in crate::reflectance) struct ReflectanceLanes {
     pub(in crate::reflectance) value: Lanes,
     /// |ln(value/exact)| is not larger; infinite where little is known.
@@ -22,23 +26,21 @@ impl ReflectanceLanes {
         Self { value: [1.0; LANES], distance: [0.0; LANES] }
     }
 
-    /// The same numbers as [`Medium::reflectance`] gives one by one.
+    /// The same numbers as [`Reflectivity::energy`] gives one by one.
     pub(in crate::reflectance) fn fill(
         &mut self,
         set: InstructionSet,
-        medium: Medium,
-        polarization: Polarization,
+        reflectivity: Reflectivity<'_>,
         geometries: &Geometries,
         count: usize,
     ) {
-        filled(set, medium, polarization, geometries, count, self);
+        filled(set, reflectivity, geometries, count, self);
     }
 }
 
 vectorized! {
     fn filled = value_and_distance, (
-        medium: Medium,
-        polarization: Polarization,
+        reflectivity: Reflectivity<'_>,
         geometries: &Geometries,
         count: usize,
         lanes: &mut ReflectanceLanes,
@@ -47,19 +49,40 @@ vectorized! {
 
 #[inline(always)]
 fn value_and_distance(
-    medium: Medium,
-    polarization: Polarization,
+    reflectivity: Reflectivity<'_>,
     geometries: &Geometries,
     count: usize,
     lanes: &mut ReflectanceLanes,
 ) {
-    let Medium::Index(index) = medium else {
+    let Medium::Index(index) = reflectivity.medium else {
         *lanes = ReflectanceLanes::new();
         return;
     };
+    let at = |incidence: SinCos| RefractiveIndex::energies(index, incidence).mixed(reflectivity.polarization);
+    // The match stands outside of the loops.
+    match reflectivity.average {
+        FresnelAverage::HalfVector => {
+            fill(geometries, count, lanes, |geometry| at(geometry.local_incidence()));
+        }
+        FresnelAverage::MeanPlane => {
+            let source = |geometry: &Geometry| SinCos { sin: geometry.sin_i, cos: geometry.cos_i };
+            fill(geometries, count, lanes, |geometry| at(source(geometry)));
+        }
+        FresnelAverage::SlopeAverage => {
+            fill(geometries, count, lanes, |geometry| reflectivity.energy(geometry));
+        }
+    }
+}
+
+#[inline(always)]
+fn fill(
+    geometries: &Geometries,
+    count: usize,
+    lanes: &mut ReflectanceLanes,
+    energy: impl Fn(&Geometry) -> Energy,
+) {
     for lane in 0..count.min(LANES) {
-        let Energy { value, error } =
-            index.energies(geometries.get(lane).local_incidence()).mixed(polarization);
+        let Energy { value, error } = energy(&geometries.get(lane));
         let ratio = error / value;
         // The exact one is value (1 ± r), and −ln(1 − r) ≤ r/(1 − r) ≤ r (1 + 2r) for r ≤ 1/2.
         let distance = ratio * (1.0 + 2.0 * ratio);
@@ -72,6 +95,8 @@ fn value_and_distance(
 mod tests {
     use super::{LANES, ReflectanceLanes};
     use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
+    use crate::reflectance::fresnel_average::FresnelAverage;
+    use crate::reflectance::fresnel_average::table::{Reflectivity, SlopeAverages};
     use crate::reflectance::geometry::Geometry;
     use crate::reflectance::geometry::lanes::{DirectionLanes, Geometries, fill};
     use crate::reflectance::numeric::dispatch::InstructionSet;
@@ -96,16 +121,19 @@ mod tests {
             let index = RefractiveIndex { n: IndexN::new(n).unwrap(), k: IndexK::new(k).unwrap() };
             let polarizations =
                 [Polarization::unpolarized(), Polarization::parallel(), Polarization::perpendicular()];
-            for polarization in polarizations {
+            let readings = [FresnelAverage::HalfVector, FresnelAverage::MeanPlane];
+            for (polarization, average) in polarizations.into_iter().flat_map(|p| readings.map(|a| (p, a))) {
+                let none = SlopeAverages::default();
+                let reading = Reflectivity::new(Medium::Index(index), polarization, average, &none);
                 for set in InstructionSet::available() {
-                    lanes.fill(set, Medium::Index(index), polarization, &geometries, LANES);
+                    lanes.fill(set, reading, &geometries, LANES);
                     for lane in 0..LANES {
                         let geometry = Geometry::new(
                             SourceZenith::new(directions.theta_i.degrees[lane]).unwrap(),
                             ViewerZenith::new(directions.theta_r.degrees[lane]).unwrap(),
                             Azimuth::new(directions.phi_r.degrees[lane]).unwrap(),
                         );
-                        let one = Medium::Index(index).reflectance(geometry.local_incidence(), polarization);
+                        let one = reading.energy(&geometry);
                         assert_eq!(lanes.value[lane].to_bits(), one.value.to_bits(), "{n} {k} {lane}");
                         let (ratio, distance) = (one.error / one.value, lanes.distance[lane]);
                         assert_eq!(distance.is_finite(), ratio < super::LARGEST_ERROR, "{n} {k} {lane}");

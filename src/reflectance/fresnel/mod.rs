@@ -57,6 +57,8 @@ pub struct Energy {
 impl Energy {
     /// All of it, exactly.
     pub const ONE: Self = Self { value: 1.0, error: 0.0 };
+    /// Some of it.
+    pub const UNKNOWN: Self = Self { value: 0.5, error: 0.5 };
     /// None of it, exactly.
     pub const ZERO: Self = Self { value: 0.0, error: 0.0 };
 

@@ -8,16 +8,16 @@ use crate::reflectance::{beckmann_spizzichino, torrance_sparrow};
 
 /// A scene whose answer is made in lanes.
 #[derive(Clone, Copy)]
-pub(in crate::reflectance) enum InLanes {
+pub(in crate::reflectance) enum InLanes<'a> {
     /// The lobe of (47) alone.
-    HeightLobe(beckmann_spizzichino::lanes::Common),
+    HeightLobe(beckmann_spizzichino::lanes::Common<'a>),
     /// Diffuse lobe, facet lobe or both.
-    Facets(torrance_sparrow::lanes::Common),
+    Facets(torrance_sparrow::lanes::Common<'a>),
 }
 
-impl Kernel<'_> {
+impl<'a> Kernel<'a> {
     /// How the whole answer is made in lanes, if it is.
-    pub(in crate::reflectance) fn in_lanes(&self) -> Option<InLanes> {
+    pub(in crate::reflectance) fn in_lanes(&self) -> Option<InLanes<'a>> {
         let (irradiance, cosines) = match self.quantity {
             Quantity::Radiance => (self.irradiance, Cosines::OfView),
             Quantity::Brdf => (1.0, Cosines::OfBoth),
@@ -30,8 +30,7 @@ impl Kernel<'_> {
             let (roughness, _) = self.series()?;
             return Some(InLanes::HeightLobe(beckmann_spizzichino::lanes::Common {
                 roughness,
-                medium: self.medium,
-                polarization: self.polarization,
+                reflectivity: self.reflectivity,
                 strength: irradiance,
                 shadowing: self.shadowing,
                 cosines,
@@ -50,15 +49,14 @@ impl Kernel<'_> {
         is_ordinary.then_some(InLanes::Facets(torrance_sparrow::lanes::Common { diffuse, facets, cosines }))
     }
 
-    fn facets_in_lanes(&self, irradiance: f64) -> Option<torrance_sparrow::lanes::Facets> {
+    fn facets_in_lanes(&self, irradiance: f64) -> Option<torrance_sparrow::lanes::Facets<'a>> {
         let facets = self.facets?;
         let strength = 0.25 * facets.specular_scale * irradiance;
         let height = if self.shares_with_spike() { Some(self.roughness?.height) } else { None };
         is_far_from_the_ends(strength).then_some(torrance_sparrow::lanes::Facets {
             sigma_alpha: facets.sigma_alpha,
             strength,
-            medium: self.medium,
-            polarization: self.polarization,
+            reflectivity: self.reflectivity,
             shadowing: self.shadowing,
             height,
         })

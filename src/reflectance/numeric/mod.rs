@@ -1,7 +1,9 @@
 //! Numerical building blocks, each with a stated error.
 
+pub mod cubature;
 pub mod dispatch;
 pub mod elementary;
+pub mod erfc_integral;
 pub mod lobe_series;
 pub mod quadrature;
 pub mod scaled;

@@ -1,6 +1,6 @@
 //! G over the cosines in many directions at once.
 
-use super::Shadowing;
+use super::ShadowingFunction;
 use crate::reflectance::geometry::Geometry;
 use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::dispatch::vectorized;
@@ -16,9 +16,9 @@ pub(in crate::reflectance) enum Cosines {
 }
 
 vectorized! {
-    /// The same numbers as [`Shadowing::factor_over_cos_r`] or [`Shadowing::factor_over_cosines`] give one by one.
+    /// The same numbers as [`ShadowingFunction::factor_over_cos_r`] or [`ShadowingFunction::factor_over_cosines`] give one by one.
     pub(in crate::reflectance) fn over_cosines = each, (
-        shadowing: Shadowing,
+        shadowing: ShadowingFunction,
         cosines: Cosines,
         geometries: &Geometries,
         count: usize,
@@ -27,20 +27,37 @@ vectorized! {
 }
 
 #[inline(always)]
-fn each(shadowing: Shadowing, cosines: Cosines, geometries: &Geometries, count: usize, over: &mut Lanes) {
+fn each(
+    shadowing: ShadowingFunction,
+    cosines: Cosines,
+    geometries: &Geometries,
+    count: usize,
+    over: &mut Lanes,
+) {
+    use ShadowingFunction::{None, Smith, VGroove};
     // The match stands outside of the loops: each of them is one branch-free expression.
     match (shadowing, cosines) {
-        (Shadowing::None, Cosines::OfView) => {
-            fill(over, count, geometries, |geometry| Shadowing::None.factor_over_cos_r(geometry));
+        (None, Cosines::OfView) => {
+            fill(over, count, geometries, |geometry| None.factor_over_cos_r(geometry));
         }
-        (Shadowing::None, Cosines::OfBoth) => {
-            fill(over, count, geometries, |geometry| Shadowing::None.factor_over_cosines(geometry));
+        (None, Cosines::OfBoth) => {
+            fill(over, count, geometries, |geometry| None.factor_over_cosines(geometry));
         }
-        (Shadowing::VGroove, Cosines::OfView) => {
-            fill(over, count, geometries, |geometry| Shadowing::VGroove.factor_over_cos_r(geometry));
+        (VGroove, Cosines::OfView) => {
+            fill(over, count, geometries, |geometry| VGroove.factor_over_cos_r(geometry));
         }
-        (Shadowing::VGroove, Cosines::OfBoth) => {
-            fill(over, count, geometries, |geometry| Shadowing::VGroove.factor_over_cosines(geometry));
+        (VGroove, Cosines::OfBoth) => {
+            fill(over, count, geometries, |geometry| VGroove.factor_over_cosines(geometry));
+        }
+        (Smith(smith), Cosines::OfView) => {
+            fill(over, count, geometries, |geometry| Smith(smith).factor_over_cos_r(geometry));
+        }
+        (Smith(smith), Cosines::OfBoth) => {
+            fill(over, count, geometries, |geometry| {
+                let over = Smith(smith).factor_over_cosines(geometry);
+                // Grazing source and view are left to the one who looks at single directions.
+                if geometry.cos_sum > 0.0 { over } else { f64::NAN }
+            });
         }
     }
 }

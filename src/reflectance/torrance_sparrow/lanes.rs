@@ -2,36 +2,35 @@
 //! number: the rest is left to [`FacetLobe::lobe`](super::FacetLobe::lobe).
 
 use crate::reflectance::fresnel::lanes::ReflectanceLanes;
-use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::fresnel_average::table::Reflectivity;
 use crate::reflectance::geometry::lanes::Geometries;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::dispatch::{InstructionSet, vectorized};
 use crate::reflectance::numeric::elementary::{angle, binary_exponent, exp, scale};
 use crate::reflectance::numeric::lobe_series::lanes::{LANES, Lanes};
-use crate::reflectance::shadowing::Shadowing;
+use crate::reflectance::shadowing::ShadowingFunction;
 use crate::reflectance::shadowing::lanes::{Cosines, over_cosines};
 use crate::reflectance::unified::{lobe_share, mirror_g};
 
 /// What the directions of a block have in common.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::reflectance) struct Common {
+pub(in crate::reflectance) struct Common<'a> {
     /// κ_diff, times the irradiance for a radiance; 0 without a diffuse lobe.
     pub(in crate::reflectance) diffuse: f64,
-    pub(in crate::reflectance) facets: Option<Facets>,
+    pub(in crate::reflectance) facets: Option<Facets<'a>>,
     /// A radiance has the cosine of one, a BRDF of both.
     pub(in crate::reflectance) cosines: Cosines,
 }
 
 /// The facet lobe (70).
 #[derive(Clone, Copy, Debug)]
-pub(in crate::reflectance) struct Facets {
+pub(in crate::reflectance) struct Facets<'a> {
     /// σ_α in radians.
     pub(in crate::reflectance) sigma_alpha: f64,
     /// c·a_f/4, times the irradiance for a radiance; a normal number.
     pub(in crate::reflectance) strength: f64,
-    pub(in crate::reflectance) medium: Medium,
-    pub(in crate::reflectance) polarization: Polarization,
-    pub(in crate::reflectance) shadowing: Shadowing,
+    pub(in crate::reflectance) reflectivity: Reflectivity<'a>,
+    pub(in crate::reflectance) shadowing: ShadowingFunction,
     /// σ_h/λ of a surface whose spike has e^{−g} of the energy and the lobe the rest.
     pub(in crate::reflectance) height: Option<f64>,
 }
@@ -84,12 +83,12 @@ impl FacetLanes {
     pub(in crate::reflectance) fn combine(
         &mut self,
         set: InstructionSet,
-        common: Common,
+        common: Common<'_>,
         geometries: &Geometries,
         count: usize,
     ) {
         if let Some(facets) = common.facets {
-            self.reflectance.fill(set, facets.medium, facets.polarization, geometries, count);
+            self.reflectance.fill(set, facets.reflectivity, geometries, count);
             over_cosines(set, facets.shadowing, common.cosines, geometries, count, &mut self.over_cosines);
             if let Some(height) = facets.height {
                 shares(set, height, geometries, count, &mut self.over_cosines);
@@ -117,12 +116,13 @@ fn times_share(height: f64, geometries: &Geometries, count: usize, over: &mut La
 }
 
 vectorized! {
-    fn lobes = lobe_and_distance, (facets: Facets, geometries: &Geometries, count: usize, lanes: &mut FacetLanes)
+    fn lobes = lobe_and_distance, (facets: Facets<'_>, geometries: &Geometries, count: usize, lanes: &mut FacetLanes)
 }
 
 #[inline(always)]
-fn lobe_and_distance(facets: Facets, geometries: &Geometries, count: usize, lanes: &mut FacetLanes) {
-    let share_units = if facets.height.is_some() { SHARE_UNITS } else { 0.0 };
+fn lobe_and_distance(facets: Facets<'_>, geometries: &Geometries, count: usize, lanes: &mut FacetLanes) {
+    let share = if facets.height.is_some() { SHARE_UNITS } else { 0.0 };
+    let factor_units = FACTOR_UNITS + share + facets.shadowing.units();
     for lane in 0..count.min(LANES) {
         let ratio = angle(geometries.cos_sum[lane], geometries.horizontal[lane]) / facets.sigma_alpha;
         let square = (ratio * ratio).min(DARK);
@@ -130,8 +130,7 @@ fn lobe_and_distance(facets: Facets, geometries: &Geometries, count: usize, lane
         let factor = lanes.over_cosines[lane] * facets.strength * lanes.reflectance.value[lane];
         let significand = factor * gaussian.significand;
         let size = binary_exponent(significand) + gaussian.exponent;
-        let distance = EPSILON * (SQUARE_UNITS * square + (FACTOR_UNITS + share_units))
-            + lanes.reflectance.distance[lane];
+        let distance = EPSILON * (SQUARE_UNITS * square + factor_units) + lanes.reflectance.distance[lane];
         // Nothing was lost on the way to numbers that are normal.
         let ordinary = (1e-290..1e290).contains(&factor) && distance < 0.5 && size < 1023.0;
         lanes.lobe[lane] = scale(significand, gaussian.exponent);
@@ -140,11 +139,11 @@ fn lobe_and_distance(facets: Facets, geometries: &Geometries, count: usize, lane
 }
 
 vectorized! {
-    fn sums = total_and_bound, (common: Common, geometries: &Geometries, count: usize, lanes: &mut FacetLanes)
+    fn sums = total_and_bound, (common: Common<'_>, geometries: &Geometries, count: usize, lanes: &mut FacetLanes)
 }
 
 #[inline(always)]
-fn total_and_bound(common: Common, geometries: &Geometries, count: usize, lanes: &mut FacetLanes) {
+fn total_and_bound(common: Common<'_>, geometries: &Geometries, count: usize, lanes: &mut FacetLanes) {
     let with_cosine = common.cosines == Cosines::OfView;
     for lane in 0..count.min(LANES) {
         let cos_i = if with_cosine { geometries.cos_i[lane] } else { 1.0 };
