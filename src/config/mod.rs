@@ -7,7 +7,7 @@ mod values;
 pub use explain::explain;
 pub use keys::{Key, KeysFile};
 
-use crate::reflectance::bounds::{MAX_DIRECTIONS, MAX_ROWS};
+use crate::reflectance::bounds::{DEFAULT_INCIDENCES, MAX_DIRECTIONS, MAX_INCIDENCES, MAX_ROWS};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroU32;
 use std::path::PathBuf;
@@ -117,6 +117,9 @@ pub struct Requests {
     /// Most rows of one diagram: points times fixed angles
     #[arg(long, env = "REFLECTANCE_ROW_LIMIT", default_value_t = MAX_ROWS, value_name = "COUNT", allow_negative_numbers = true, value_parser = rows)]
     pub row_limit: usize,
+    /// Most incidences of one albedo request
+    #[arg(long, env = "REFLECTANCE_INCIDENCE_LIMIT", default_value_t = DEFAULT_INCIDENCES, value_name = "COUNT", allow_negative_numbers = true, value_parser = incidences)]
+    pub incidence_limit: usize,
     /// Seconds from a request's head to the beginning of its answer
     #[arg(long, env = "REFLECTANCE_REQUEST_TIMEOUT_SECONDS", default_value = "60", value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     pub request_timeout_seconds: Duration,
@@ -211,6 +214,10 @@ fn directions(text: &str) -> Result<usize, String> {
 
 fn rows(text: &str) -> Result<usize, String> {
     values::whole(text, 1, MAX_ROWS)
+}
+
+fn incidences(text: &str) -> Result<usize, String> {
+    values::whole(text, 1, MAX_INCIDENCES)
 }
 
 fn queue(text: &str) -> Result<usize, String> {

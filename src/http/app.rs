@@ -29,6 +29,7 @@ pub(crate) struct Limits {
     pub(crate) head_bytes: u64,
     pub(crate) directions: usize,
     pub(crate) rows: usize,
+    pub(crate) incidences: usize,
     /// From the head of a request to the beginning of its answer.
     pub(crate) request_time: Duration,
     /// From the beginning of an answer to its end.
@@ -54,6 +55,7 @@ impl Limits {
             head_bytes: requests.head_limit_bytes,
             directions: requests.direction_limit,
             rows: requests.row_limit,
+            incidences: requests.incidence_limit,
             request_time: requests.request_timeout_seconds,
             answer_time: requests.answer_timeout_seconds,
             cpu_time: requests.cpu_limit_seconds,

@@ -56,6 +56,7 @@ pub(super) fn information() -> OpenApi {
             tag("reflection", "Radiance and BRDF of a surface in given directions."),
             tag("diagrams", "Tabulated diagrams and the report's figures."),
             tag("roughness", "Measures of roughness and what they mean for the models."),
+            tag("materials", "n and k of materials by wavelength, and where they come from."),
             tag("reference", "What the service says about itself."),
             tag("operations", "For those who run it."),
         ]))

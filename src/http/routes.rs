@@ -2,8 +2,8 @@
 
 use super::App;
 use super::api::{
-    diagrams, documents, figures, health, image_irradiance, limits, plan, problems, radiance, roughness,
-    tradeoff,
+    albedo, diagrams, documents, figures, health, image_irradiance, limits, materials, plan, problems,
+    radiance, roughness, tradeoff,
 };
 use super::edge::not_found;
 use super::openapi;
@@ -18,6 +18,7 @@ fn documented() -> OpenApiRouter<App> {
     OpenApiRouter::with_openapi(openapi::information())
         .routes(routes!(radiance::radiance))
         .routes(routes!(radiance::brdf))
+        .routes(routes!(albedo::albedo))
         .routes(routes!(plan::plan))
         .routes(routes!(tradeoff::tradeoff))
         .routes(routes!(diagrams::link, diagrams::diagram))
@@ -25,6 +26,8 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(figures::index))
         .routes(routes!(figures::figure))
         .routes(routes!(roughness::roughness))
+        .routes(routes!(materials::index))
+        .routes(routes!(materials::material))
         .routes(routes!(limits::limits))
         .routes(routes!(problems::index))
         .routes(routes!(problems::problem))

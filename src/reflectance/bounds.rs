@@ -101,6 +101,12 @@ pub const SWEEP_ANGLE: Bounds = Bounds::new("swept zenith angle", "degrees", -90
 pub const SWEEP_STEP: Bounds = Bounds::new("sweep step", "degrees", 1e-6, 180.0);
 /// The relative tolerance of a caller who names none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+/// The relative tolerance of an albedo where none is named.
+pub const DEFAULT_ALBEDO_TOLERANCE: f64 = 1e-6;
+/// Incidences of one albedo request that a service can be set to accept.
+pub const MAX_INCIDENCES: usize = 100_000;
+/// Those that it accepts unless it is.
+pub const DEFAULT_INCIDENCES: usize = 1000;
 /// Directions in one request.
 pub const MAX_DIRECTIONS: usize = 1_000_000;
 /// Points along one sweep.
@@ -109,3 +115,7 @@ pub const MAX_SWEEP_POINTS: usize = 1_000_000;
 pub const MAX_ROWS: usize = 10_000_000;
 /// Fixed angles of one diagram.
 pub const MAX_CURVES: usize = 100;
+/// Wavelengths of one spectrum.
+pub const MAX_WAVELENGTHS: usize = 1_000;
+/// Series of one diagram: fixed angles times wavelengths.
+pub const MAX_SERIES: usize = 10_000;

@@ -112,6 +112,8 @@ pub enum WarningCode {
     MultipleScatteringSignificant,
     /// The components reflect more than arrives.
     EnergyAboveOne,
+    /// The components reflect less than arrives, and nothing absorbs it.
+    EnergyLost,
     /// (79) on steep slopes.
     SmallSlopesViolated,
     /// A named method far from where it serves.
@@ -120,7 +122,7 @@ pub enum WarningCode {
 
 impl WarningCode {
     /// Every code, in the order in which answers list them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::SpikeWithoutSensor,
         Self::ParameterNotUsed,
         Self::KirchhoffCurvature,
@@ -130,6 +132,7 @@ impl WarningCode {
         Self::ShadowingSignificant,
         Self::MultipleScatteringSignificant,
         Self::EnergyAboveOne,
+        Self::EnergyLost,
         Self::MethodOutOfRange,
         Self::ToleranceNotMet,
         Self::Underflow,
@@ -148,6 +151,7 @@ impl WarningCode {
             Self::ShadowingSignificant => "shadowing_significant",
             Self::MultipleScatteringSignificant => "multiple_scattering_significant",
             Self::EnergyAboveOne => "energy_above_one",
+            Self::EnergyLost => "energy_lost",
             Self::SmallSlopesViolated => "small_slopes_violated",
             Self::MethodOutOfRange => "method_out_of_range",
         }
@@ -198,8 +202,12 @@ impl WarningCode {
             }
             Self::EnergyAboveOne => {
                 "the components reflect more light from these sources than arrives: value is the largest directional \
-                 albedo, by a coarse quadrature over the facets that is good to 0.05 of it (sources beyond 85° are judged \
-                 at 85°)"
+                 albedo, null if infinite. But for /v1/albedo, which integrates it, it comes from a coarse quadrature over \
+                 the facets that is good to 0.05 of it (sources beyond 85° are judged at 85°)"
+            }
+            Self::EnergyLost => {
+                "a perfect conductor reflects all, and lobe and spike together reflect less from these sources: light that \
+                 meets the surface again, or that the model sends below the horizon, is lost; value is the least excess"
             }
             Self::SmallSlopesViolated => {
                 "facet_slope_deg follows from σ_h/T by (79), which holds for gentle slopes: above 0.1 the two models' \

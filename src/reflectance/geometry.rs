@@ -24,6 +24,21 @@ struct Sines {
     behind: bool,
 }
 
+/// A viewer by the facet that mirrors the source to it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FacetAngles {
+    /// Of `θ_i`
+    pub(super) source: SinCos,
+    /// Of α
+    pub(super) slope: SinCos,
+    /// Of the azimuth of the facet's normal: 0 leans towards the source, between 0 and 180° to positive `φ_r`.
+    pub(super) azimuth: SinCos,
+    /// cos `θ′`
+    pub(super) cos_local: f64,
+    /// cos `θ_r`, not negative but for rounding
+    pub(super) cos_r: f64,
+}
+
 /// One pair of directions. The source lies at azimuth 180° of the x axis' half plane, so that
 /// azimuth 0 of the viewer holds the mirror direction, as in figure 7.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,6 +102,48 @@ impl Geometry {
             SinCos::of_radians(phi_r / 2.0),
             SinCos::of_radians(phi_r).cos,
         )
+    }
+
+    /// From source and facet. Error of v/k and its parts below 32 ε of their terms and those of the angles.
+    pub(super) fn of_facet(angles: &FacetAngles) -> Self {
+        let &FacetAngles { source, slope, azimuth, cos_local, .. } = angles;
+        let cos_r = angles.cos_r.max(0.0);
+        let sin_r = ((1.0 - cos_r) * (1.0 + cos_r)).max(0.0).sqrt();
+        let cos_sum = 2.0 * cos_local * slope.cos;
+        // cos θ_r − cos θ_i, whose product with the sum is that of sin θ_i − sin θ_r with theirs.
+        let cos_difference =
+            2.0 * slope.sin * (source.sin * slope.cos * azimuth.cos - source.cos * slope.sin);
+        let sin_sum = source.sin + sin_r;
+        let sin_difference = if sin_sum > 0.0 { cos_difference * (cos_sum / sin_sum) } else { 0.0 };
+        let half = hypotenuse(sin_difference, cos_sum);
+        let half_difference = SinCos { sin: sin_difference / half, cos: cos_sum / half };
+        let along = source.sin - 2.0 * cos_local * slope.sin * azimuth.cos;
+        let across = 2.0 * cos_local * slope.sin * azimuth.sin;
+        let (cos_azimuth, sin_azimuth) = if sin_r > 0.0 {
+            ((along / sin_r).clamp(-1.0, 1.0), (across / sin_r).clamp(0.0, 1.0))
+        } else {
+            (1.0, 0.0)
+        };
+        // The larger of the two by its root, the other by their product.
+        let larger = (0.5 * (1.0 + cos_azimuth.abs())).sqrt();
+        let smaller = 0.5 * sin_azimuth / larger;
+        let half_azimuth = if cos_azimuth < 0.0 {
+            SinCos { sin: larger, cos: smaller }
+        } else {
+            SinCos { sin: smaller, cos: larger }
+        };
+        Self {
+            cos_i: source.cos,
+            sin_i: source.sin,
+            cos_r,
+            sin_r,
+            half_difference,
+            half_azimuth,
+            cos_azimuth,
+            cos_sum,
+            sin_difference,
+            horizontal: 2.0 * cos_local * slope.sin,
+        }
     }
 
     #[inline(always)]

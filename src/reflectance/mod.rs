@@ -3,6 +3,7 @@
 //! Numbers are parsed once, into the types of [`quantity`]; past that point nothing can fail.
 //! Errors are stated in units of ε = 2⁻⁵³ ([`numeric::EPSILON`]), the largest relative error of one rounding.
 
+pub mod albedo;
 pub mod beckmann_spizzichino;
 mod block;
 pub mod bounds;
@@ -25,6 +26,7 @@ pub mod image_irradiance;
 mod kernel;
 pub mod lambertian;
 pub mod linear_image;
+pub mod material;
 pub mod model;
 pub mod numeric;
 pub mod outline;

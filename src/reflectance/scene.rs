@@ -3,7 +3,7 @@
 
 use super::beckmann_spizzichino::RelativeRoughness;
 use super::degrees::SinCos;
-use super::fresnel::{Medium, Polarization};
+use super::fresnel::{Medium, Polarization, RefractiveIndex};
 use super::fresnel_average::FresnelAverage;
 use super::numeric::lobe_series::Method;
 use super::outline::{Outline, SceneError};
@@ -210,8 +210,13 @@ impl Scene {
             .as_ref()
             .map(|listed| outline.evaluated(parameters.model, listed))
             .unwrap_or_default();
+        Ok(Self::of_parts(parameters, evaluated))
+    }
+
+    /// Parameters that were checked, and the components to evaluate of them.
+    pub(super) fn of_parts(parameters: SceneParameters, evaluated: Vec<Component>) -> Self {
         let facets = FacetParameters::of(&parameters);
-        Ok(Self { parameters, evaluated, facets })
+        Self { parameters, evaluated, facets }
     }
 
     /// A scene of this crate's own making, complete by construction.
@@ -229,6 +234,17 @@ impl Scene {
     pub fn with_accuracy(&self, accuracy: Accuracy) -> Self {
         let parameters = SceneParameters { accuracy, ..self.parameters.clone() };
         Self { parameters, ..self.clone() }
+    }
+
+    /// The same scene in light of another wavelength, at which its medium may have another index: no part of what can be
+    /// wrong where a wavelength is given.
+    #[must_use]
+    pub fn with_light(&self, wavelength: Wavelength, index: Option<RefractiveIndex>) -> Self {
+        let mut scene = self.clone();
+        let SceneParameters { illumination, surface, .. } = &mut scene.parameters;
+        illumination.wavelength = Some(wavelength);
+        surface.medium = index.map_or(surface.medium, Medium::Index);
+        scene
     }
 
     /// The parameters it was made of.

@@ -1,6 +1,7 @@
 //! How much of a source's light the components send back, and how much of it meets the surface again: what warnings
 //! about energy rest on.
 
+use super::albedo;
 use super::degrees::SinCos;
 use super::directions::Directions;
 use super::facet_energy::{Facet, Facets};
@@ -9,11 +10,12 @@ use super::fresnel::{Medium, Polarization};
 use super::fresnel_average::FresnelAverage;
 use super::requirement;
 use super::scene::{Component, FacetParameters, Model, Scene};
-use super::shadowing::{Shadowing, smith_visible_roughly};
+use super::shadowing::{Shadowing, smith_lambda, smith_visible_roughly};
 use super::strain;
 use super::surface::Regime;
 use super::unified;
 use core::cell::OnceCell;
+use core::f64::consts::PI;
 
 /// What the quadrature may be off by; an albedo above 1 is told from this on.
 const COARSE: f64 = 0.05;
@@ -25,7 +27,8 @@ const STEEPEST: f64 = 85.0;
 const NODES: usize = 5;
 
 /// The facets of a scene and what they reflect.
-pub(super) struct SourceEnergy {
+pub(super) struct SourceEnergy<'a> {
+    scene: &'a Scene,
     /// Those of the lobe, if there is one whose facets are known.
     lobe: Option<Lobe>,
     /// ρ, where the diffuse lobe is there.
@@ -81,9 +84,9 @@ struct Lobe {
     shadowing: Shadowing,
 }
 
-impl SourceEnergy {
+impl<'a> SourceEnergy<'a> {
     /// None for a scene that cannot reflect more than arrives, nor twice.
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
+    pub(super) fn of(scene: &'a Scene) -> Option<Self> {
         let p = scene.parameters();
         let has = |component| scene.evaluated().contains(&component);
         let diffuse = if has(Component::DiffuseLobe) { p.surface.diffuse_albedo.get() } else { 0.0 };
@@ -91,6 +94,7 @@ impl SourceEnergy {
         let lobe = if has(Component::SpecularLobe) { Lobe::of(scene) } else { None };
         let spike = has(Component::SpecularSpike) || requirement::lacks_sensor(scene);
         (lobe.is_some() || diffuse > 0.0 && spike).then_some(Self {
+            scene,
             lobe,
             diffuse,
             spike,
@@ -115,8 +119,7 @@ impl SourceEnergy {
         let Some(lobe) = &self.lobe else { return (albedo, 0.0) };
         let again = scattered * lobe.again(source, theta_i);
         if self.rough_only && g.is_none_or(|g| g < Regime::ROUGH_FROM) {
-            // What the spike lacks the lobe has (errata E19).
-            return (0.0, again);
+            return (coherent + self.of_heights(lobe, source), again);
         }
         // The facets that face the source add up to 1 + Λ times what it sees of the plane: nothing to integrate where
         // that suffices.
@@ -141,6 +144,21 @@ impl SourceEnergy {
                 seen * common.unwrap_or_else(|| self.reflectance(facet.cos_local))
             });
         (albedo, again)
+    }
+
+    /// The albedo of the lobe of (47) on a surface that is not rough, or 0 where that cannot make more than arrives: what the
+    /// spike lacks the lobe has (errata E19), but near grazing it has more.
+    fn of_heights(&self, lobe: &Lobe, source: SinCos) -> f64 {
+        // Waves spread the light as slopes of λ/(2π T cos θ_i) do.
+        let spread = self
+            .scene
+            .relative_roughness()
+            .map_or(0.0, |roughness| 0.5 / (PI * roughness.correlation_length * source.cos));
+        let width = libm::hypot(lobe.width, spread);
+        if source.sin == 0.0 || smith_lambda(source, width) <= COARSE {
+            return 0.0;
+        }
+        albedo::height_lobe_roughly(self.scene, source).unwrap_or(0.0)
     }
 
     /// F′
@@ -214,7 +232,7 @@ pub(super) struct Sources {
 
 impl Sources {
     /// For sources between two zeniths, degrees.
-    pub(super) fn new(energy: &SourceEnergy, [from, to]: [f64; 2]) -> Self {
+    pub(super) fn new(energy: &SourceEnergy<'_>, [from, to]: [f64; 2]) -> Self {
         let count = if from == to { 1 } else { NODES };
         let step = if count == 1 { 0.0 } else { (to - from) / (count - 1) as f64 };
         Self { from, to, nodes: (0..count).map(|node| energy.at(from + step * node as f64)).collect() }

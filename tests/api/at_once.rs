@@ -75,11 +75,11 @@ fn a_part_that_is_wrong_hides_no_other() {
         (
             {
                 let mut body = scene();
-                body["surface"]["medium"] = json!({"material": "Al", "n": -1});
+                body["surface"]["medium"] = json!({"material": "unobtainium", "n": -1});
                 body
             },
             vec![
-                ("/surface/medium/material", "not_offered"),
+                ("/surface/medium/material", "unknown_value"),
                 ("/surface/medium/n", "inconsistent"),
                 ("/surface/medium/n", "out_of_range"),
             ],

@@ -121,8 +121,8 @@ fn a_choice_that_is_wrong_has_its_pointer_and_its_code() {
         ),
         (vec![("/surface/medium", json!("Al"))], vec![("/surface/medium", "unknown_value")]),
         (
-            vec![("/surface/medium", json!({"material": "Al"}))],
-            vec![("/surface/medium/material", "not_offered")],
+            vec![("/surface/medium", json!({"material": "Alu"}))],
+            vec![("/surface/medium/material", "unknown_value")],
         ),
         (
             vec![("/surface/medium", json!({"n": 0, "k": -1}))],

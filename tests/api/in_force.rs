@@ -18,17 +18,22 @@ fn every_limit_is_in_the_message_of_its_error_and_in_the_list() {
         ("--expanded-body-limit-bytes", "70000"),
         ("--direction-limit", "4321"),
         ("--row-limit", "300007"),
+        ("--incidence-limit", "77"),
         ("--cpu-limit-seconds", "0.25"),
     ];
     let server = Server::with(&flags.map(|(flag, value)| [flag, value]).concat());
     let list: Value = server.get("/v1/limits").json().unwrap();
     let mut directions = scene();
     directions["geometry"]["theta_r_deg"] = vec![1; 4322].into();
+    let mut incidences = scene();
+    incidences.as_object_mut().unwrap().remove("geometry");
+    incidences["theta_i_deg"] = vec![1; 78].into();
     let packed = zstd::encode_all(vec![b' '; 70_001].as_slice(), 1).unwrap();
     for (name, path, body) in [
         ("body_limit_bytes", "/v1/radiance", vec![b' '; 60_001]),
         ("expanded_body_limit_bytes", "/v1/radiance", packed),
         ("direction_limit", "/v1/radiance", directions.to_string().into_bytes()),
+        ("incidence_limit", "/v1/albedo", incidences.to_string().into_bytes()),
         ("row_limit", "/v1/diagrams", diagram(150_004, "auto").to_string().into_bytes()),
         ("cpu_limit_seconds", "/v1/diagrams", diagram(150_003, "series").to_string().into_bytes()),
     ] {

@@ -1,6 +1,7 @@
 //! The service from outside: the real binary over real HTTP.
 
 mod access;
+mod albedo;
 mod at_once;
 mod bad_input;
 mod caching;
@@ -13,6 +14,7 @@ mod formats;
 mod http2;
 mod in_force;
 mod limits;
+mod materials;
 mod plan;
 mod properties;
 mod protocol;
@@ -20,6 +22,7 @@ mod radiance;
 mod readme;
 mod secure;
 mod server;
+mod spectra;
 mod surfaces;
 mod telemetry;
 mod tradeoff;

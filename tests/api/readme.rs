@@ -74,7 +74,7 @@ fn every_request_gets_the_answer_shown() {
     let mut answers = blocks("json");
     answers.extend(blocks("csv"));
     answers.sort_unstable();
-    assert_eq!((requests.len(), answers.len()), (7, 7));
+    assert_eq!((requests.len(), answers.len()), (8, 8));
     for ((_, request), (_, shown)) in requests.into_iter().zip(answers) {
         let path = request.split("http://127.0.0.1:8080").nth(1).expect("a path");
         let path = &path[..path.find(['\'', ' ']).unwrap_or(path.len())];

@@ -6,6 +6,7 @@ mod facets;
 mod fixed_view;
 mod lobe;
 mod map;
+mod materials;
 mod page;
 mod series;
 mod service;

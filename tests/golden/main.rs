@@ -9,6 +9,7 @@ mod family;
 mod ff;
 mod fresnel;
 mod image;
+mod material;
 mod measure;
 mod roughness;
 mod series;

@@ -1,6 +1,8 @@
 //! Laws that the models must obey, each to a tolerance that is derived where it stands.
 
+mod albedo;
 mod energy;
+mod energy_page;
 mod handover;
 mod hankel;
 mod invariance;

@@ -4,12 +4,14 @@ use super::columns::{Stretch, headings};
 use super::output::{End, Output};
 use super::text::Text;
 use super::work::{Curve, Over, Work};
+use crate::http::api::light::MediumAnswer;
 use crate::http::compute::job::Job;
 use crate::http::problem::Problem;
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::evaluate::Tally;
 use axum::body::Bytes;
 use futures_util::{StreamExt as _, pin_mut};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Bytes about as many as an answer has besides its numbers, and for each row.
@@ -19,15 +21,30 @@ const A_ROW: usize = 80;
 /// A small answer, at once.
 pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
     let mut text = Text::with_capacity(BESIDES + A_ROW * work.rows());
-    begin(work, &mut text);
+    begin(work, &mut text)?;
     if let Over::Sweep(sweep) = &work.over {
         text.numbers(sweep.positions(), true);
         between(sweep, &mut text);
     }
-    for index in 0..work.curves() {
+    whole_curves(work, 0..work.curves(), &mut text, || false)?;
+    end(work, &mut text);
+    Ok(text.0)
+}
+
+/// Curves that are small, one after the other.
+fn whole_curves(
+    work: &Work,
+    curves: Range<usize>,
+    text: &mut Text,
+    is_over: impl Fn() -> bool,
+) -> Result<(), Problem> {
+    for index in curves {
+        if is_over() {
+            break;
+        }
         let curve = work.prepare(index)?;
-        let stretch = work.stretch(&curve, 0..work.points(), || false)?;
-        begin_curve(&curve, index, &mut text);
+        let stretch = work.stretch(&curve, 0..work.points(), &is_over)?;
+        begin_curve(&curve, index, text)?;
         let mut total = 0..0;
         for (column, (name, numbers)) in names(work, &curve).zip(&stretch.numbers).enumerate() {
             text.list(name, |text| {
@@ -53,16 +70,15 @@ pub(super) fn whole(work: &Work) -> Result<Vec<u8>, Problem> {
         text.push("[");
         text.diagnostics(&stretch.diagnostics, true)?;
         text.push("]");
-        end_curve(&curve, &mut text);
+        end_curve(&curve, text);
     }
-    end(work, &mut text);
-    Ok(text.0)
+    Ok(())
 }
 
 /// A large answer, part by part.
 pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
     let mut text = Text::default();
-    begin(&work, &mut text);
+    begin(&work, &mut text)?;
     if let Over::Sweep(sweep) = &work.over {
         let positions = sweep.positions().to_vec();
         send_list(
@@ -76,10 +92,27 @@ pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
         .await?;
         between(sweep, &mut text);
     }
+    if let Some(groups) = work.groups(None) {
+        output.send(text.take()).await?;
+        let texts = output.run_all(groups.map(|curves| {
+            let work = Arc::clone(&work);
+            move |job: &Job| {
+                let mut text = Text::default();
+                whole_curves(&work, curves, &mut text, || job.is_stopped())?;
+                Ok::<_, Problem>(text)
+            }
+        }));
+        pin_mut!(texts);
+        while let Some(text) = texts.next().await {
+            output.send(text??.0).await?;
+        }
+        end(&work, &mut text);
+        return output.send(text.0).await;
+    }
     for index in 0..work.curves() {
         let prepare = Arc::clone(&work);
         let curve = output.run(move |_| prepare.prepare(index)).await??;
-        begin_curve(&curve, index, &mut text);
+        begin_curve(&curve, index, &mut text)?;
         stream_curve(&work, &curve, &mut text, &output).await?;
         end_curve(&curve, &mut text);
     }
@@ -220,17 +253,26 @@ fn names(work: &Work, curve: &Curve) -> impl Iterator<Item = &'static str> + use
     headings(curve.components(), work.quantity(), work.output()).into_iter().map(|(name, _)| name)
 }
 
-fn begin(work: &Work, text: &mut Text) {
+fn begin(work: &Work, text: &mut Text) -> Result<(), Problem> {
     text.push("{\"quantity\":\"");
     text.push(work.quantity().name());
     text.push("\",\"unit\":\"");
     text.push(work.quantity().unit());
     text.push("\"");
-    if let Over::Sweep(sweep) = &work.over {
-        text.push(",\"axis\":{\"name\":\"");
-        text.push(sweep.axis().name());
-        text.push("\",\"unit\":\"degrees\",\"values\":[");
+    if let Some(lookup) = work.looked_up() {
+        text.name("medium");
+        text.value(&MediumAnswer::from(lookup))?;
     }
+    match &work.over {
+        Over::Directions(_) if work.spectrum().is_some() => text.push(",\"spectrum\":["),
+        Over::Directions(_) => (),
+        Over::Sweep(sweep) => {
+            text.push(",\"axis\":{\"name\":\"");
+            text.push(sweep.axis().name());
+            text.push("\",\"unit\":\"degrees\",\"values\":[");
+        }
+    }
+    Ok(())
 }
 
 /// Between the axis and the curves.
@@ -244,23 +286,39 @@ fn between(sweep: &Sweep, text: &mut Text) {
     text.push("[");
 }
 
-fn begin_curve(curve: &Curve, index: usize, text: &mut Text) {
-    if let Some(at) = curve.at_deg {
+/// One curve of several is an object of its own.
+fn begin_curve(curve: &Curve, index: usize, text: &mut Text) -> Result<(), Problem> {
+    if is_one_of_several(curve) {
         text.push(if index == 0 { "{" } else { ",{" });
+    }
+    if let Some(line) = curve.line {
+        text.name("wavelength_um");
+        text.numbers(&[line.wavelength.get()], true);
+        if let Some(lookup) = line.lookup {
+            text.name("medium");
+            text.value(&MediumAnswer::from(lookup))?;
+        }
+    }
+    if let Some(at) = curve.at_deg {
         text.name("at_deg");
         text.numbers(&[at], true);
     }
+    Ok(())
+}
+
+const fn is_one_of_several(curve: &Curve) -> bool {
+    curve.at_deg.is_some() || curve.line.is_some()
 }
 
 fn end_curve(curve: &Curve, text: &mut Text) {
-    if curve.at_deg.is_some() {
+    if is_one_of_several(curve) {
         text.push("}");
     }
 }
 
 fn end(work: &Work, text: &mut Text) {
     text.push(match work.over {
-        Over::Directions(_) => "}",
-        Over::Sweep(_) => "]}",
+        Over::Directions(_) if work.spectrum().is_none() => "}",
+        Over::Directions(_) | Over::Sweep(_) => "]}",
     });
 }

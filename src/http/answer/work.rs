@@ -1,16 +1,18 @@
 //! What is to be evaluated for one answer: a scene over directions, or over the curves of a sweep.
 
 use super::columns::Stretch;
+use crate::http::api::light::{Light, Line};
 use crate::http::app::Limits;
 use crate::http::edge::Meter;
 use crate::http::encode::rows::RowFormat;
 use crate::http::problem::{Code, FieldError, Problem};
-use crate::reflectance::bounds::MAX_AVERAGED;
+use crate::reflectance::bounds::{MAX_AVERAGED, MAX_SERIES};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, average_cost, expected_cost};
 use crate::reflectance::findings::Warning;
 use crate::reflectance::linear_image::LinearScene;
+use crate::reflectance::material::Lookup;
 use crate::reflectance::quantity::OutOfBounds;
 use crate::reflectance::scene::{Component, Scene};
 use std::ops::Range;
@@ -22,6 +24,8 @@ const EXPONENTIAL: f64 = 3.5;
 const LINEAR: f64 = 400.0;
 /// Nanoseconds of one number in JSON.
 const NUMBER: f64 = 30.0;
+/// Nanoseconds of a curve besides its rows: what it requires, its warnings and their text.
+const CURVE: f64 = 5e3;
 /// Nanoseconds of a piece of work for the pool: a change of threads costs a fortieth of it.
 const PIECE: f64 = 1e6;
 /// Rows of a piece: not so few that the changes of threads show, nor so many that text and columns take memory.
@@ -42,7 +46,7 @@ pub(crate) struct Work {
 /// Of what.
 #[derive(Clone, Debug)]
 pub(crate) enum Subject {
-    Scene { scene: Box<Scene>, quantity: Quantity, output: Output },
+    Scene { scene: Box<Scene>, light: Light, quantity: Quantity, output: Output },
     Linear { scene: Arc<LinearScene>, log10: bool },
 }
 
@@ -53,9 +57,11 @@ pub(crate) enum Over {
     Sweep(Box<Sweep>),
 }
 
-/// One curve made ready; directions without a sweep are one curve.
+/// One curve made ready; directions without a sweep are one curve, at each wavelength.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
+    /// The wavelength, if there is one of several.
+    pub(super) line: Option<Line>,
     /// The fixed angle of a sweep.
     pub(super) at_deg: Option<f64>,
     pub(super) model: Model,
@@ -74,9 +80,26 @@ impl Work {
     }
 
     pub(super) fn rows(&self) -> usize {
-        match &self.over {
+        let rows = match &self.over {
             Over::Directions(directions) => directions.count(),
             Over::Sweep(sweep) => sweep.rows(),
+        };
+        rows * self.spectrum().map_or(1, <[Line]>::len)
+    }
+
+    /// The wavelengths, if there may be several.
+    pub(super) fn spectrum(&self) -> Option<&[Line]> {
+        match &self.subject {
+            Subject::Scene { light: Light::Spectrum(lines), .. } => Some(lines),
+            Subject::Scene { light: Light::One(_), .. } | Subject::Linear { .. } => None,
+        }
+    }
+
+    /// What was looked up at the only wavelength.
+    pub(super) fn looked_up(&self) -> Option<Lookup> {
+        match &self.subject {
+            Subject::Scene { light: Light::One(lookup), .. } => *lookup,
+            Subject::Scene { light: Light::Spectrum(_), .. } | Subject::Linear { .. } => None,
         }
     }
 
@@ -88,11 +111,17 @@ impl Work {
         }
     }
 
-    pub(super) fn curves(&self) -> usize {
+    /// Curves of each wavelength.
+    fn fixed_angles(&self) -> usize {
         match &self.over {
             Over::Directions(_) => 1,
             Over::Sweep(sweep) => sweep.at().len(),
         }
+    }
+
+    /// All curves, those of one wavelength together.
+    pub(super) fn curves(&self) -> usize {
+        self.fixed_angles() * self.spectrum().map_or(1, <[Line]>::len)
     }
 
     pub(super) fn quantity(&self) -> Quantity {
@@ -111,63 +140,71 @@ impl Work {
 
     /// What is wrong with it by the limits of this service, which may be below those of the document.
     pub(super) fn check(&self, limits: &Limits) -> Result<(), Vec<FieldError>> {
-        let (pointer, what, limit) = match self.over {
-            Over::Directions(_) => ("/geometry", "directions", limits.directions),
-            Over::Sweep(_) => ("/at_deg", "rows (points times fixed angles)", limits.rows),
-        };
-        let rows = self.rows();
-        let detail = if rows > limit {
-            format!("{rows} {what} in one request: at most {limit} are answered")
-        } else {
-            let sources = self.averaged_sources();
-            if sources <= MAX_AVERAGED {
-                return Ok(());
+        let lines = self.spectrum().map_or(1, <[Line]>::len);
+        let (pointer, what, whats, limit) = match self.over {
+            Over::Directions(_) => {
+                ("/geometry", "directions", "rows (directions times wavelengths)", limits.directions)
             }
-            format!(
-                "{sources} zeniths of the source in one request: with fresnel_average slope_average at most \
-                 {MAX_AVERAGED} are answered"
-            )
+            Over::Sweep(_) => (
+                "/at_deg",
+                "rows (points times fixed angles)",
+                "rows (points times fixed angles times wavelengths)",
+                limits.rows,
+            ),
         };
+        let (rows, series) = (self.rows(), self.curves());
+        let (number, what, limit) = if rows / lines > limit {
+            (rows / lines, what, limit)
+        } else if rows > limits.rows && lines > 1 {
+            (rows, whats, limits.rows)
+        } else if series > MAX_SERIES {
+            (series, "series (fixed angles times wavelengths)", MAX_SERIES)
+        } else {
+            let what = "zeniths of the source, over all series, with fresnel_average slope_average";
+            (self.averaged_sources(), what, MAX_AVERAGED)
+        };
+        if number <= limit {
+            return Ok(());
+        }
+        let detail = format!("{number} {what} in one request: at most {limit} are answered");
         Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
     }
 
-    /// Zeniths of the source under which F is averaged over the slopes.
+    /// Zeniths of the source under which F is averaged over the slopes, at each wavelength anew.
     fn averaged_sources(&self) -> usize {
-        match &self.subject {
+        let sources = match &self.subject {
             Subject::Scene { scene, .. } if scene.averages_slopes() => match &self.over {
                 Over::Directions(directions) => directions.distinct_sources(),
                 Over::Sweep(sweep) => sweep.sources(),
             },
             Subject::Scene { .. } | Subject::Linear { .. } => 0,
-        }
-    }
-
-    /// Nanoseconds of all of it, to a factor of two.
-    pub(super) fn nanoseconds(&self, format: Option<RowFormat>) -> f64 {
-        let before = EXPONENTIAL * average_cost(self.averaged_sources());
-        before + self.nanoseconds_a_row(format) * self.rows() as f64
+        };
+        sources * self.spectrum().map_or(1, <[Line]>::len)
     }
 
     /// Finds what a curve requires, `index` below [`Self::curves`].
     pub(super) fn prepare(&self, index: usize) -> Result<Curve, Problem> {
         let at_deg = match &self.over {
             Over::Directions(_) => None,
-            Over::Sweep(sweep) => Some(sweep.at()[index]),
+            Over::Sweep(sweep) => Some(sweep.at()[index % self.fixed_angles()]),
         };
+        let line = self.spectrum().map(|lines| lines[index / self.fixed_angles()]);
         let model = match &self.subject {
             Subject::Linear { scene, log10 } => Model::Linear { scene: Arc::clone(scene), log10: *log10 },
-            Subject::Scene { scene, quantity, output } => {
+            Subject::Scene { scene, quantity, output, .. } => {
+                let lit = line.map(|line| scene.with_light(line.wavelength, line.index()));
+                let scene = lit.as_ref().unwrap_or(scene);
                 let prepared = |directions: &_| Prepared::new(scene, directions, *quantity, *output);
                 Model::Scene(Arc::new(match &self.over {
                     Over::Directions(directions) => prepared(directions),
                     Over::Sweep(sweep) => {
                         let all = 0..sweep.positions().len();
-                        prepared(&sweep.directions(sweep.at()[index], all).map_err(left_range)?)
+                        prepared(&sweep.directions(at_deg.unwrap_or_default(), all).map_err(left_range)?)
                     }
                 }))
             }
         };
-        Ok(Curve { at_deg, model })
+        Ok(Curve { line, at_deg, model })
     }
 
     /// What the caller should know of a curve whatever its values are.
@@ -234,7 +271,32 @@ impl Work {
         self.evaluation() + numbers * format.map_or(NUMBER, RowFormat::nanoseconds_a_number)
     }
 
-    /// Of it, those of the evaluation.
+    /// Nanoseconds of all of it, likewise.
+    pub(super) fn nanoseconds(&self, format: Option<RowFormat>) -> f64 {
+        self.nanoseconds_a_row(format) * self.rows() as f64
+            + self.nanoseconds_a_curve() * self.curves() as f64
+    }
+
+    /// Of a curve, those besides its rows.
+    fn nanoseconds_a_curve(&self) -> f64 {
+        let averages = average_cost(self.averaged_sources()) / self.curves() as f64;
+        CURVE + EXPONENTIAL * averages
+    }
+
+    /// Consecutive curves that are about a millisecond of work together; none where one is that much by itself.
+    pub(super) fn groups(
+        &self,
+        format: Option<RowFormat>,
+    ) -> Option<impl Iterator<Item = Range<usize>> + Send + use<>> {
+        let curve = self.nanoseconds_a_row(format) * self.points() as f64 + self.nanoseconds_a_curve();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and small")]
+        let together = (PIECE / curve) as usize;
+        let curves = self.curves();
+        (together > 1 && curves > 1)
+            .then(|| (0..curves).step_by(together).map(move |first| first..curves.min(first + together)))
+    }
+
+    /// Of a row, those of the evaluation.
     fn evaluation(&self) -> f64 {
         match &self.subject {
             Subject::Scene { scene, output, .. } => EXPONENTIAL * expected_cost(scene, *output),

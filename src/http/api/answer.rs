@@ -1,11 +1,14 @@
 //! What `/v1/radiance` and `/v1/brdf` answer.
 
+use super::light::MediumAnswer;
 use crate::http::encode::numbers::Numbers;
 use crate::reflectance::findings::{Diagnostic, Omitted, Warning, WarningCode};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use utoipa::ToSchema;
-use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
+use utoipa::openapi::RefOr;
+use utoipa::openapi::schema::{Object, ObjectBuilder, Schema, Type};
+use utoipa::{PartialSchema, ToSchema};
 
 /// Values in each direction, in the order of the request's arrays. A value that is infinite or undefined is null,
 /// and `diagnostics` says why. A value below the smallest 64-bit float is 0.
@@ -18,6 +21,9 @@ pub(crate) struct Answer {
     /// Unit of the values.
     #[schema(example = "W m^-2 sr^-1")]
     unit: &'static str,
+    /// What was looked up, where the medium is a material.
+    #[schema(nullable = false)]
+    medium: Option<MediumAnswer>,
     /// The sum of the components.
     total: Numbers,
     /// (57)
@@ -59,6 +65,60 @@ pub(crate) struct Answer {
     warnings: Vec<WarningAnswer>,
     /// Why values are null.
     diagnostics: Vec<DiagnosticAnswer>,
+}
+
+/// Answers at several wavelengths, in the order of the request's array.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "for the document: answers are written column by column")]
+pub(crate) struct SpectrumAnswer {
+    /// `radiance`, `brdf` or `image_irradiance`.
+    #[schema(example = "radiance")]
+    quantity: &'static str,
+    /// Unit of the values.
+    #[schema(example = "W m^-2 sr^-1")]
+    unit: &'static str,
+    /// One for each wavelength.
+    spectrum: Vec<LineAnswer>,
+}
+
+/// The answer at one of several wavelengths: an [`Answer`] without what is said of all.
+pub(crate) struct LineAnswer;
+
+impl PartialSchema for LineAnswer {
+    fn schema() -> RefOr<Schema> {
+        let RefOr::T(Schema::Object(mut object)) = Answer::schema() else { return Answer::schema() };
+        let of_all = ["quantity", "unit"];
+        object.properties.retain(|name, _| !of_all.contains(&name.as_str()));
+        object.required.retain(|name| !of_all.contains(&name.as_str()));
+        let wavelength = ObjectBuilder::new().schema_type(Type::Number).description(Some("λ, micrometres."));
+        object.properties.insert("wavelength_um".to_owned(), wavelength.into());
+        object.required.push("wavelength_um".to_owned());
+        object.description = Some("The answer at one wavelength.".to_owned());
+        object.into()
+    }
+}
+
+impl ToSchema for LineAnswer {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("SpectrumLine")
+    }
+
+    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+        Answer::schemas(schemas);
+    }
+}
+
+/// One answer, or one for each wavelength.
+#[derive(ToSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "for the document: answers are written column by column")]
+pub(crate) enum AnswerOrSpectrum {
+    /// At one wavelength.
+    #[schema(title = "One wavelength")]
+    One(Box<Answer>),
+    /// At several.
+    #[schema(title = "Spectrum")]
+    Spectrum(SpectrumAnswer),
 }
 
 /// A component that was left out.

@@ -38,7 +38,7 @@ object! {
 impl Hash for DiagramRequest {
     fn hash<H: Hasher>(&self, state: &mut H) {
         let quantity = self.quantity.unwrap_or(Quantity::Radiance).name();
-        (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene.0).hash(state);
+        (quantity, OutputWire::chosen(self.output.clone()), &self.sweep.0, &self.scene).hash(state);
         OutputWire::angles(self.output.as_ref()).unwrap_or(true).hash(state);
     }
 }
@@ -96,10 +96,12 @@ pub(crate) async fn diagram(
 }
 
 async fn draw(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result<Response, Problem> {
-    let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene: CheckedScene(scene) } = request;
+    let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene } = request;
+    let CheckedScene { scene, light } = scene;
     let angles = OutputWire::angles(output.as_ref());
     let subject = Subject::Scene {
         scene: Box::new(scene),
+        light,
         quantity: quantity.unwrap_or(Quantity::Radiance),
         output: OutputWire::chosen(output),
     };

@@ -37,6 +37,11 @@ const UNIFIED: &str = r#"{"model": "unified",
  "sensor": {"footprint_um2": 1e6, "patch_half_x_um": 500, "patch_half_y_um": 500},
  "geometry": {"theta_i_deg": [10, 30, 60], "theta_r_deg": [10, 30, 60]}}"#;
 
+const SPECTRUM: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.3, "correlation_length_um": 5, "medium": {"material": "Al"}},
+ "illumination": {"wavelength_um": [0.405, 0.532, 0.633]},
+ "geometry": {"theta_i_deg": 30, "theta_r_deg": [15, 30, 45]}}"#;
+
 const PAPER: &str = r#"{"model": "beckmann_spizzichino",
  "surface": {"rms_height_um": 1, "correlation_length_um": 10},
  "illumination": {"wavelength_um": 0.5},
@@ -52,6 +57,14 @@ const MIRROR: &str = r#"{"model": "beckmann_spizzichino",
 
 const LAMBERTIAN: &str = r#"{"model": "lambertian", "surface": {"diffuse_albedo": 0.8},
  "illumination": {"irradiance": 3.141592653589793}, "geometry": {"theta_i_deg": 60, "theta_r_deg": 20}}"#;
+
+const ALBEDO: &str = r#"{"model": "beckmann_spizzichino",
+ "surface": {"rms_height_um": 0.1, "correlation_length_um": 5, "medium": {"n": 1.37, "k": 7.62}},
+ "illumination": {"wavelength_um": 0.633}, "theta_i_deg": [0, 30, 60, 75]}"#;
+
+const BRIGHT: &str = r#"{"model": "torrance_sparrow",
+ "surface": {"rms_height_um": 3, "correlation_length_um": 20, "shadowing": "none"},
+ "theta_i_deg": [0, 45, 60, 75, 80, 85], "accuracy": {"relative_tolerance": 1e-9}}"#;
 
 const DIAGRAM: &str = r#"{"quantity": "brdf", "model": "beckmann_spizzichino",
  "surface": {"rms_height_um": 0.5, "correlation_length_um": 5},
@@ -95,6 +108,12 @@ pub(crate) const BODIES: &[Example] = &[
         "The first 100 terms only, with the error bound they have",
         PAPER,
     ),
+    example(
+        "/v1/radiance",
+        "spectrum",
+        "Brushed aluminium at three wavelengths, n and k looked up",
+        SPECTRUM,
+    ),
     example("/v1/radiance", "lambertian", "An ideal diffuser", LAMBERTIAN),
     example(
         "/v1/brdf",
@@ -103,6 +122,8 @@ pub(crate) const BODIES: &[Example] = &[
         FIRST,
     ),
     example("/v1/brdf", "facets", "Torrance-Sparrow facets of glass over a diffuse base", FACETS),
+    example("/v1/albedo", "aluminium", "How spike and lobe of a metal share the energy", ALBEDO),
+    example("/v1/albedo", "above_one", "Facets without shadowing reflect more than arrives", BRIGHT),
     example(
         "/v1/plan",
         "polished_metal",
@@ -143,6 +164,7 @@ pub(crate) const LINKS: &[Link] = &[
             ("theta_i_deg", "30"),
         ],
     },
+    Link { path: "/v1/materials/{name}", values: &[("wavelength_um", "0.633")] },
     Link {
         path: "/v1/diagrams",
         values: &[

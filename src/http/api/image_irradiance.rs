@@ -1,10 +1,10 @@
 //! `POST /v1/image-irradiance`: (51) through a camera, and the linear models (74) and (80).
 #![allow(non_snake_case, reason = "the strengths keep the report's symbols on the wire")]
 
-use super::answer::{Answer, DiagnosticAnswer};
+use super::answer::{Answer, DiagnosticAnswer, SpectrumAnswer};
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
-use super::scene::describes_patch;
+use super::scene::{CheckedScene, describes_patch};
 use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonBody;
 use crate::http::encode::numbers::Numbers;
@@ -207,7 +207,7 @@ fn camera(object: Object, reader: &mut Reader) -> Option<ImageRequest> {
         reader.within("sensor", |reader| reader.error(code, detail));
     }
     let request = Box::new(request?);
-    let Some(Sensor::Camera(camera)) = request.scene.0.parameters().sensor else { return None };
+    let Some(Sensor::Camera(camera)) = request.scene.scene.parameters().sensor else { return None };
     Some(ImageRequest::Camera { request, factor: camera.optics().image_irradiance_factor() })
 }
 
@@ -273,6 +273,9 @@ pub(crate) enum ImageAnswer {
     /// Of a camera.
     #[schema(title = "Camera")]
     Camera(Answer),
+    /// Of a camera at several wavelengths.
+    #[schema(title = "Camera, spectrum")]
+    Spectrum(SpectrumAnswer),
     /// Of a linear model.
     #[schema(title = "Linear model")]
     Linear(LinearAnswer),
@@ -299,9 +302,11 @@ pub(crate) async fn image_irradiance(
     let work = match request {
         ImageRequest::Camera { request, factor } => {
             let RadianceRequest { geometry, output, scene } = *request;
+            let CheckedScene { scene, light } = scene;
             let angles = OutputWire::angles(output.as_ref());
             let subject = Subject::Scene {
-                scene: Box::new(scene.0),
+                scene: Box::new(scene),
+                light,
                 quantity: Quantity::ImageIrradiance { factor },
                 output: OutputWire::chosen(output),
             };

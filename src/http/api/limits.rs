@@ -14,7 +14,7 @@ use crate::http::input::query::{MOST_PARAMETERS, NoQuery};
 use crate::http::link::{Known, configured};
 use crate::http::negotiate::{Format, JsonOnly};
 use crate::http::problem::{Kind, Problem};
-use crate::reflectance::bounds::{MAX_AVERAGED, MAX_CURVES, MAX_SWEEP_POINTS};
+use crate::reflectance::bounds::{MAX_AVERAGED, MAX_CURVES, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS};
 use axum::extract::State;
 use axum::response::Response;
 use clap::CommandFactory as _;
@@ -134,6 +134,7 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
         head_bytes,
         directions,
         rows,
+        incidences,
         request_time,
         answer_time,
         cpu_time,
@@ -152,6 +153,7 @@ fn configured_limits(limits: &Limits) -> Vec<(&'static str, Value, &'static str,
         ("head_limit_bytes", head_bytes.into(), "bytes", Refused(Kind::HeadTooLarge)),
         ("direction_limit", directions.into(), "directions", Refused(Kind::InvalidRequest)),
         ("row_limit", rows.into(), "rows", Refused(Kind::InvalidRequest)),
+        ("incidence_limit", incidences.into(), "incidences", Refused(Kind::InvalidRequest)),
         ("request_timeout_seconds", request_time.into(), "seconds", Refused(Kind::TooSlow)),
         ("answer_timeout_seconds", answer_time.into(), "seconds", Else("the answer is cut short")),
         ("cpu_limit_seconds", cpu_time.into(), "seconds", Refused(Kind::CpuTime)),
@@ -247,6 +249,20 @@ fn list(limits: &Limits) -> LimitList {
     let invalid = Kind::InvalidRequest;
     all.extend([
         Limit::fixed("sweep_points", MAX_SWEEP_POINTS, "points", "Most points along one sweep", invalid),
+        Limit::fixed(
+            "wavelengths",
+            MAX_WAVELENGTHS,
+            "wavelengths",
+            "Most wavelengths of one spectrum",
+            invalid,
+        ),
+        Limit::fixed(
+            "series",
+            MAX_SERIES,
+            "series",
+            "Most fixed angles times wavelengths of one diagram",
+            invalid,
+        ),
         Limit::fixed("fixed_angles", MAX_CURVES, "angles", "Most fixed angles of one diagram", invalid),
         Limit::fixed(
             "averaged_sources",

@@ -1,5 +1,6 @@
 //! One file a resource: wire types, handler and its `OpenAPI` note.
 
+pub(super) mod albedo;
 pub(super) mod answer;
 pub(super) mod diagrams;
 pub(super) mod documents;
@@ -7,7 +8,9 @@ pub(super) mod examples;
 pub(super) mod figures;
 pub(super) mod health;
 pub(super) mod image_irradiance;
+pub(super) mod light;
 pub(super) mod limits;
+pub(super) mod materials;
 pub(super) mod plan;
 pub(super) mod problems;
 pub(super) mod radiance;

@@ -1,15 +1,16 @@
 //! `POST /v1/plan`: what a scene requires, before it is evaluated.
 
 use super::answer::{OmittedAnswer, WarningAnswer};
+use super::light::MediumAnswer;
 use super::radiance::{CheckedDirections, RadianceRequest};
 use super::responses::PostProblems;
-use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
 use crate::http::edge::Deadline;
 use crate::http::encode::json;
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::Problem;
+use crate::reflectance::material::Lookup;
 use crate::reflectance::plan::{MethodRange, Plan};
 use crate::reflectance::scene::Component;
 use axum::response::Response;
@@ -23,6 +24,10 @@ use utoipa::ToSchema;
 #[derive(Serialize, ToSchema)]
 #[schema(as = Plan)]
 pub(crate) struct PlanAnswer {
+    /// What was looked up, where the medium is a material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    medium: Option<MediumAnswer>,
     /// Directions of the request.
     directions: usize,
     /// How many of them were looked at one by one: all up to 1024, else so many from the first to the last, equally spaced.
@@ -104,9 +109,10 @@ impl From<MethodRange> for RangeAnswer {
     }
 }
 
-impl From<Plan> for PlanAnswer {
-    fn from(plan: Plan) -> Self {
+impl PlanAnswer {
+    fn new(plan: Plan, lookup: Option<Lookup>) -> Self {
         Self {
+            medium: lookup.map(MediumAnswer::from),
             directions: plan.directions,
             sampled: plan.sampled,
             roughness_g: plan.roughness_g.map(|[least, largest]| RoughnessRange { least, largest }),
@@ -145,11 +151,12 @@ pub(crate) async fn plan(
     deadline: Deadline,
     JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    let RadianceRequest { geometry: CheckedDirections(directions), scene: CheckedScene(scene), .. } = request;
+    let RadianceRequest { geometry: CheckedDirections(directions), scene, .. } = request;
+    let (scene, lookup) = scene.single()?;
     // An average over slopes takes as long as a thousand directions.
     let effort = if scene.averages_slopes() { usize::MAX } else { directions.count() };
     compute::run(deadline, effort, move || {
-        json::response(&PlanAnswer::from(Plan::of(&scene, &directions)), 4096)
+        json::response(&PlanAnswer::new(Plan::of(&scene, &directions), lookup), 4096)
     })
     .await?
 }

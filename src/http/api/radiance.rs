@@ -1,6 +1,6 @@
 //! `POST /v1/radiance` and `POST /v1/brdf`: (47), (57), (72) and section 5.1 in given directions.
 
-use super::answer::Answer;
+use super::answer::AnswerOrSpectrum;
 use super::responses::PostProblems;
 use super::scene::CheckedScene;
 use crate::http::answer::{self, Call, Over, Subject, Work};
@@ -159,7 +159,8 @@ impl IntoParams for BesideColumns {
 
 /// Radiance L_r (2) by component.
 ///
-/// Up to 1,000,000 directions in one request. The unit is that of `irradiance` per steradian.
+/// Up to 1,000,000 directions in one request. The unit is that of `irradiance` per steradian. Where `wavelength_um` is an
+/// array there is an answer for each, in JSON as a `spectrum`, in tables as more rows with the wavelength before them.
 ///
 /// The directions can also come as columns `theta_i_deg`, `theta_r_deg`, `phi_r_deg` (in any order) of CSV with a line
 /// of names, of an Arrow IPC stream (floats or integers, uncompressed, without nulls), or of a structured `.npy` array of
@@ -181,7 +182,7 @@ impl IntoParams for BesideColumns {
     ),
     responses(
         (status = 200, description = "The radiance in each direction.", content(
-            (Answer = "application/json"),
+            (AnswerOrSpectrum = "application/json"),
             (String = "text/csv"),
             (Binary = "application/vnd.apache.arrow.stream"),
             (Binary = "application/x-npy")
@@ -215,7 +216,7 @@ pub(crate) async fn radiance(
     ),
     responses(
         (status = 200, description = "The BRDF in each direction.", content(
-            (Answer = "application/json"),
+            (AnswerOrSpectrum = "application/json"),
             (String = "text/csv"),
             (Binary = "application/vnd.apache.arrow.stream"),
             (Binary = "application/x-npy")
@@ -232,10 +233,11 @@ async fn answer(
     quantity: Quantity,
     JsonOrColumns { value: request, format, turn }: JsonOrColumns<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
-        request;
+    let RadianceRequest { geometry: CheckedDirections(directions), output, scene } = request;
+    let CheckedScene { scene, light } = scene;
+    let scene = Box::new(scene);
     let angles = OutputWire::angles(output.as_ref());
-    let subject = Subject::Scene { scene: Box::new(scene), quantity, output: OutputWire::chosen(output) };
+    let subject = Subject::Scene { scene, light, quantity, output: OutputWire::chosen(output) };
     let mut work = Work::new(subject, Over::Directions(Box::new(directions)));
     work.has_angles = angles.unwrap_or(!matches!(format, Format::Arrow | Format::Npy));
     answer::respond(call, turn, work).await

@@ -1,18 +1,21 @@
 //! The description of a scene as requests carry it: model, surface, light, sensor, accuracy.
 
+use super::light::{self, IlluminationWire, Light, Lit};
+use crate::http::input::medium::MediumWire;
 use crate::http::input::node::{Node, Object};
 use crate::http::input::object::{WireObject, object};
 use crate::http::input::reader::{Fields, Reader};
 use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
-use crate::http::problem::Code;
+use crate::http::problem::{Code, Problem};
 use crate::reflectance::bounds::DEFAULT_TOLERANCE;
-use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::fresnel::Polarization;
 use crate::reflectance::fresnel_average::FresnelAverage;
+use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError, Slopes};
 use crate::reflectance::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
-    SpecularScale, Tolerance, Wavelength,
+    SpecularScale, Tolerance,
 };
 use crate::reflectance::scene::{
     self, Accuracy, CameraSensor, Components, Model, Scene, SceneParameters, Sensor,
@@ -32,8 +35,9 @@ object! {
         /// σ_α of (58), degrees: the width of the density exp(−α²/2σ_α²) of facet slope angles. Absent or null:
         /// by (79) from σ_h/T where a Torrance-Sparrow lobe needs it.
         facet_slope_deg: Option<FacetSlope>,
-        /// What the surface is made of; a perfect conductor when absent or null.
-        medium: Option<Medium>,
+        /// What the surface is made of: n and k, or a material that is looked up at the wavelength; a perfect conductor
+        /// when absent or null.
+        medium: Option<MediumWire>,
         /// ρ; κ_diff of (57) is ρ/π. 0 when absent or null.
         diffuse_albedo: Option<Fraction>,
         /// c·a_f of (71), per steradian. Absent or null: the value with which the projected areas of all facets
@@ -48,20 +52,6 @@ object! {
         /// viewer (`half_vector`, when absent or null), the mean plane (`mean_plane`), or all facets that face the source
         /// (`slope_average`, for σ_h/T up to 4). The spike always has the mean plane's.
         fresnel_average: Option<FresnelAverage>,
-    }
-}
-
-object! {
-    partial
-    /// The light: a collimated beam.
-    IlluminationWire as "Illumination" {
-        /// λ, micrometres. Needed by the models that rest on the height statistics.
-        wavelength_um: Option<Wavelength>,
-        /// Of the beam on a plane normal to it, W m^-2 or W m^-2 nm^-1; the answer carries the same. 1 when
-        /// absent or null.
-        irradiance: Option<Irradiance>,
-        /// Polarization with respect to the facet's plane of incidence; unpolarized when absent or null.
-        polarization: Option<Polarization>,
     }
 }
 
@@ -193,7 +183,7 @@ object! {
     partial
     /// How exactly, and by which method.
     AccuracyWire as "Accuracy" {
-        /// Of the total, per direction; 1e-9 when absent or null.
+        /// Of the total, per direction; 1e-9 when absent or null (1e-6 of an albedo).
         relative_tolerance: Option<Tolerance>,
         /// How the lobe series is evaluated: `series` sums to convergence, `paper` the first 100 terms as the
         /// authors did, `uniform` is a saddle-point expansion, `smooth` is (48) corrected, `rough` is (49). A named
@@ -226,7 +216,7 @@ object! {
 
 impl SceneWire {
     /// What is known, for the checks of the parts against each other.
-    fn outline(&self) -> Outline {
+    pub(super) fn outline(&self) -> Outline {
         let surface = self.surface.as_ref();
         let light = self.illumination.as_ref();
         let absences = [
@@ -254,12 +244,21 @@ impl SceneWire {
         }
     }
 
-    /// The parameters, if all could be read.
-    fn into_parameters(self) -> Option<SceneParameters> {
+    /// The light with what is looked up in it, as far as it could be read.
+    pub(super) fn lit(&self, reader: &mut Reader) -> Option<Lit> {
+        let wavelengths = match self.illumination.as_ref()? {
+            Some(light) => light.wavelength_um.as_ref().map(Option::as_ref),
+            None => Some(None),
+        };
+        light::lit(wavelengths, self.surface.as_ref()?.medium, reader)
+    }
+
+    /// The parameters in a light, if all could be read.
+    pub(super) fn into_parameters(self, lit: &Lit, default_tolerance: f64) -> Option<SceneParameters> {
         let (surface, accuracy) = (self.surface?, self.accuracy?);
-        let (wavelength, irradiance, polarization) = match self.illumination? {
-            Some(light) => (light.wavelength_um?, light.irradiance?, light.polarization?),
-            None => (None, None, None),
+        let (irradiance, polarization) = match self.illumination? {
+            Some(light) => (light.irradiance?, light.polarization?),
+            None => (None, None),
         };
         let (tolerance, method) = match accuracy {
             Some(accuracy) => (accuracy.relative_tolerance?, accuracy.method?),
@@ -271,14 +270,14 @@ impl SceneWire {
                 rms_height: surface.rms_height_um?,
                 correlation_length: surface.correlation_length_um?,
                 facet_slope: surface.facet_slope_deg?,
-                medium: surface.medium?.unwrap_or(Medium::PerfectConductor),
+                medium: lit.medium,
                 diffuse_albedo: surface.diffuse_albedo?.unwrap_or(Fraction::ZERO),
                 specular_scale: surface.specular_scale?,
                 shadowing: surface.shadowing?,
                 fresnel_average: surface.fresnel_average?,
             },
             illumination: scene::Illumination {
-                wavelength,
+                wavelength: lit.wavelength,
                 irradiance: irradiance.or_else(|| Irradiance::new(1.0).ok())?,
                 polarization: polarization.unwrap_or_else(Polarization::unpolarized),
             },
@@ -288,16 +287,27 @@ impl SceneWire {
                 Some(Listed::Named(named)) => Components::Named(named.into_iter().collect::<Option<_>>()?),
             },
             accuracy: Accuracy {
-                relative_tolerance: tolerance.or_else(|| Tolerance::new(DEFAULT_TOLERANCE).ok())?,
+                relative_tolerance: tolerance.or_else(|| Tolerance::new(default_tolerance).ok())?,
                 method: method.unwrap_or(Method::Auto),
             },
         })
     }
 }
 
-/// A scene whose parameters fit together, read in one go with the checks of [`Outline::errors`].
-#[derive(Clone, Debug)]
-pub(crate) struct CheckedScene(pub(crate) Scene);
+/// A scene whose parameters fit together, read in one go with the checks of [`Outline::errors`], and its light. The scene
+/// is that of the first wavelength.
+#[derive(Clone, Debug, Hash)]
+pub(crate) struct CheckedScene {
+    pub(crate) scene: Scene,
+    pub(crate) light: Light,
+}
+
+impl CheckedScene {
+    /// The scene of a resource that answers one wavelength, and what was looked up for its medium.
+    pub(crate) fn single(self) -> Result<(Scene, Option<Lookup>), Problem> {
+        Ok((self.scene, self.light.single()?))
+    }
+}
 
 impl WireObject for CheckedScene {
     const NAME: &'static str = SceneWire::NAME;
@@ -308,8 +318,10 @@ impl WireObject for CheckedScene {
         for error in wire.outline().errors() {
             note(&error, reader);
         }
+        let lit = wire.lit(reader)?;
         // What is wrong with the whole was just noted.
-        Scene::new(wire.into_parameters()?).ok().map(Self)
+        let scene = Scene::new(wire.into_parameters(&lit, DEFAULT_TOLERANCE)?).ok()?;
+        Some(Self { scene, light: lit.light })
     }
 
     fn names() -> Vec<&'static str> {
@@ -330,7 +342,7 @@ impl WireObject for CheckedScene {
 }
 
 /// Notes what the core found at the field that a client knows.
-fn note(error: &SceneError, reader: &mut Reader) {
+pub(super) fn note(error: &SceneError, reader: &mut Reader) {
     match error {
         SceneError::Missing { parameter, needed_by, unless } => {
             let unless = unless.map(|other| format!(", unless {} is given", place(other).1));

@@ -1,8 +1,8 @@
 //! `POST /v1/tradeoff`: what each way to evaluate the lobe series costs in a scene, and how far off it is.
 
+use super::light::MediumAnswer;
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
-use super::scene::CheckedScene;
 use crate::http::body::JsonBody;
 use crate::http::compute;
 use crate::http::edge::Deadline;
@@ -10,6 +10,7 @@ use crate::http::encode::json;
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::Problem;
 use crate::reflectance::evaluate::Quantity;
+use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::tradeoff::{Row, Tradeoff, measure};
 use axum::response::Response;
@@ -29,6 +30,10 @@ pub(crate) struct TradeoffAnswer {
     /// `radiance`.
     #[schema(example = "radiance")]
     quantity: &'static str,
+    /// What was looked up, where the medium is a material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    medium: Option<MediumAnswer>,
     /// How many directions the request has.
     directions: usize,
     /// Indices of the directions measured: all of them up to 64, otherwise 64 at even distances with the first and
@@ -108,7 +113,7 @@ impl From<Row> for RowAnswer {
 }
 
 impl TradeoffAnswer {
-    fn new(directions: usize, relative_tolerance: f64, trade: Tradeoff) -> Self {
+    fn new(directions: usize, relative_tolerance: f64, trade: Tradeoff, lookup: Option<Lookup>) -> Self {
         let in_series = trade.rows.iter().any(|row| row.method.is_some());
         let rows: Vec<_> = trade.rows.into_iter().map(RowAnswer::from).collect();
         let auto = rows.iter().find(|row| {
@@ -116,6 +121,7 @@ impl TradeoffAnswer {
         });
         Self {
             quantity: Quantity::Radiance.name(),
+            medium: lookup.map(MediumAnswer::from),
             directions,
             directions_used: trade.used,
             directions_compared: trade.compared,
@@ -146,15 +152,15 @@ pub(crate) async fn tradeoff(
     deadline: Deadline,
     JsonBody { value: request, .. }: JsonBody<RadianceRequest>,
 ) -> Result<Response, Problem> {
-    let RadianceRequest { geometry: CheckedDirections(directions), output, scene: CheckedScene(scene) } =
-        request;
+    let RadianceRequest { geometry: CheckedDirections(directions), output, scene } = request;
+    let (scene, lookup) = scene.single()?;
     let permit = compute::turn(deadline, &ONE_AT_A_TIME).await?;
     compute::blocking(deadline, move || {
         let _permit = permit;
         let started = Instant::now();
         let trade = measure(&scene, &directions, OutputWire::chosen(output), || started.elapsed());
         let tolerance = scene.parameters().accuracy.relative_tolerance.get();
-        json::response(&TradeoffAnswer::new(directions.count(), tolerance, trade), 8192)
+        json::response(&TradeoffAnswer::new(directions.count(), tolerance, trade, lookup), 8192)
     })
     .await?
 }

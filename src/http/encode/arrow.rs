@@ -14,7 +14,9 @@ use std::sync::Arc;
 
 /// The schema.
 pub(super) fn head(head: &Head) -> Result<Vec<u8>, Problem> {
-    StreamWriter::try_new(Vec::new(), &schema(head))
+    let notes: HashMap<_, _> =
+        head.notes.iter().map(|(name, text)| ((*name).to_owned(), text.clone())).collect();
+    StreamWriter::try_new(Vec::new(), &schema(head).with_metadata(notes))
         .map(|mut writer| std::mem::take(writer.get_mut()))
         .map_err(|error| Problem::unwritten(&error))
 }
@@ -50,11 +52,9 @@ fn batch_after_schema(schema: &Schema, batch: &RecordBatch, out: &mut Vec<u8>) -
     writer.write(batch)
 }
 
+/// Without the notes, which stand at the head alone.
 fn schema(head: &Head) -> Schema {
-    let fields: Vec<Field> = head.columns.iter().map(field).collect();
-    let notes: HashMap<_, _> =
-        head.notes.iter().map(|(name, text)| ((*name).to_owned(), text.clone())).collect();
-    Schema::new_with_metadata(fields, notes)
+    Schema::new(head.columns.iter().map(field).collect::<Vec<_>>())
 }
 
 fn field(heading: &Heading) -> Field {

@@ -11,8 +11,8 @@ pub(super) fn head(head: &Head) -> Vec<u8> {
     let mut line = Vec::new();
     for heading in &head.columns {
         let unit = heading.unit.replace(' ', "_").replace('^', "");
-        // The name of an angle says its unit.
-        let name = if unit.is_empty() || heading.name.ends_with("_deg") {
+        // The name of an angle or a length says its unit.
+        let name = if unit.is_empty() || heading.name.ends_with("_deg") || heading.name.ends_with("_um") {
             heading.name.to_owned()
         } else {
             format!("{}_{unit}", heading.name)

@@ -1,6 +1,7 @@
 //! Tables as JSON: an axis, and one series a curve.
 
 use crate::http::api::answer::{DiagnosticAnswer, OmittedAnswer, WarningAnswer};
+use crate::http::api::light::MediumAnswer;
 use crate::reflectance::evaluate::EvaluatedBy;
 use crate::reflectance::table::{Curve, Table};
 use serde::ser::SerializeMap;
@@ -22,6 +23,10 @@ pub(crate) struct Diagram {
     /// Their unit; empty for a pure number.
     #[schema(example = "W m^-2 sr^-1")]
     unit: &'static str,
+    /// What was looked up, where the medium is a material at one wavelength.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    medium: Option<MediumAnswer>,
     /// The angle that runs.
     axis: Axis,
     /// The angle that stays; absent where there is none.
@@ -30,7 +35,7 @@ pub(crate) struct Diagram {
     fixed: Option<Fixed>,
     /// φ_r, degrees.
     phi_r_deg: f64,
-    /// One for each fixed angle.
+    /// One for each fixed angle, and for each wavelength where there are several.
     series: Vec<Series>,
 }
 
@@ -76,6 +81,8 @@ impl Diagram {
         Self {
             quantity: table.quantity,
             unit: table.unit,
+            // No figure of the report names a material.
+            medium: None,
             axis: Axis { name: table.axis.name, unit: table.axis.unit, values: table.axis.values },
             fixed: table.fixed.map(|name| Fixed { name, unit: "degrees" }),
             phi_r_deg: table.phi_r_deg,
@@ -160,7 +167,9 @@ impl PartialSchema for Series {
                 "label",
                 ObjectBuilder::new().schema_type(Type::String).description(Some("What it shows.")),
             )
-            .property("at_deg", number().description(Some("The fixed angle, degrees.")));
+            .property("at_deg", number().description(Some("The fixed angle, degrees.")))
+            .property("wavelength_um", number().description(Some("λ, micrometres, where there are several.")))
+            .property("medium", Ref::from_schema_name("LookedUp"));
         for (name, description) in COLUMNS {
             object = object.property(name, super::numbers::described(description));
         }
@@ -196,5 +205,6 @@ impl ToSchema for Series {
         schemas.push((OmittedAnswer::name().into_owned(), OmittedAnswer::schema()));
         schemas.push((WarningAnswer::name().into_owned(), WarningAnswer::schema()));
         schemas.push((DiagnosticAnswer::name().into_owned(), DiagnosticAnswer::schema()));
+        schemas.push((MediumAnswer::name().into_owned(), MediumAnswer::schema()));
     }
 }

@@ -4,6 +4,7 @@
 //! into values of the core's types and notes each thing that is wrong with a pointer to it; [`object`]
 //! declares the fields of an object once, for reading and for the `OpenAPI` schema.
 
+pub(crate) mod medium;
 pub(crate) mod node;
 pub(crate) mod object;
 mod plain;

@@ -11,11 +11,11 @@ use crate::http::decode::OBJECT;
 use crate::http::problem::Code;
 use crate::reflectance::bounds::{Bounds, MAX_DIRECTIONS};
 use crate::reflectance::directions::Angles;
-use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
+use crate::reflectance::fresnel::Polarization;
 use crate::reflectance::fresnel_average::FresnelAverage;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::Listed;
-use crate::reflectance::quantity::{Fraction, IndexK, IndexN, Quantity};
+use crate::reflectance::quantity::{Fraction, Quantity};
 use crate::reflectance::scene::{Component, Model};
 use crate::reflectance::shadowing::Shadowing;
 use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Schema, Type};
@@ -115,6 +115,34 @@ impl<Q: Quantity, const MOST: usize> Wire for List<Q, MOST> {
     }
 }
 
+/// One number, or a list of them, None for those that were not accepted; in a query a list as that of [`List`].
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum OneOrMany<Q, const MOST: usize> {
+    One(Q),
+    Many(Vec<Option<Q>>),
+}
+
+impl<Q: Quantity, const MOST: usize> Wire for OneOrMany<Q, MOST> {
+    const REPEATABLE: bool = true;
+    const RANGE: Option<&'static Bounds> = Some(Q::BOUNDS);
+
+    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
+        let is_list = match &node {
+            Node::Array(_) => true,
+            Node::Text(text) => reader.is_flat() && text.contains(','),
+            _ => false,
+        };
+        if is_list {
+            return List::<Q, MOST>::read(node, reader).map(|List(many)| Self::Many(many));
+        }
+        Q::read(node, reader).map(Self::One)
+    }
+
+    fn schema() -> RefOr<Schema> {
+        OneOfBuilder::new().item(Q::schema()).item(list_schema(Q::schema(), MOST)).into()
+    }
+}
+
 /// The texts of a query parameter, taken apart at their commas.
 fn split(node: Node) -> Node {
     let texts = match node {
@@ -195,93 +223,6 @@ impl Wire for String {
     fn schema() -> RefOr<Schema> {
         ObjectBuilder::new().schema_type(Type::String).into()
     }
-}
-
-object! {
-    partial
-    /// A complex index of refraction n − ik.
-    IndexWire as "RefractiveIndex" {
-        /// n.
-        n: IndexN,
-        /// k, not negative; 0 when absent.
-        k: Option<IndexK>,
-    }
-}
-
-/// The names that a medium can have.
-const MEDIA: [&str; 1] = ["perfect_conductor"];
-
-impl Wire for Medium {
-    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let expected = if reader.is_flat() {
-            "\"perfect_conductor\", or n and k in its place"
-        } else {
-            "\"perfect_conductor\" or an object with n and k"
-        };
-        match node {
-            Node::Text(text) if MEDIA.contains(&text.as_str()) => Some(Self::PerfectConductor),
-            Node::Text(text) => {
-                let detail =
-                    format!("\"{}\" is not a medium: expected {expected}", super::node::excerpt(&text));
-                reader.fail(Code::UnknownValue, detail)
-            }
-            Node::Object(object) if object.fields.iter().any(|(name, _)| name == "material") => {
-                let mut fields = Fields::new(object);
-                fields.exclude(reader, &["n", "k"], "material");
-                ignore_index(&mut fields, reader);
-                if fields.take_named::<String>(reader, "material").is_some() {
-                    let detail = format!("no materials are offered yet: expected {expected}");
-                    reader.within("material", |reader| reader.error(Code::NotOffered, detail));
-                }
-                fields.finish(reader, IndexWire::names);
-                None
-            }
-            Node::Object(_) => IndexWire::read_object(node, reader).and_then(|wire| index(&wire)),
-            other => reader.fail(Code::WrongType, mismatch(&other, &expected)),
-        }
-    }
-
-    fn read_flat(name: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        if fields.has_any(&[name]) {
-            fields.exclude(reader, &["n", "k"], name);
-            ignore_index(fields, reader);
-            fields.take_named(reader, name)
-        } else {
-            IndexWire::take(fields, reader).and_then(|wire| index(&wire))
-        }
-    }
-
-    fn is_given(name: &'static str, fields: &Fields) -> bool {
-        fields.has_any(&[name, "n", "k"])
-    }
-
-    fn schema() -> RefOr<Schema> {
-        let names = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA));
-        OneOfBuilder::new().item(names).item(IndexWire::reference()).into()
-    }
-
-    fn collect(schemas: &mut Schemas) {
-        IndexWire::gather(schemas);
-    }
-
-    fn parameters(name: &'static str, description: &str, required: bool) -> Vec<Parameter> {
-        let schema = ObjectBuilder::new().schema_type(Type::String).enum_values(Some(MEDIA)).into();
-        let description = format!("{description} Or n and k.");
-        let mut parameters = vec![Parameter { name, description, required, schema, bounds: None }];
-        parameters.extend(IndexWire::query_parameters(false));
-        parameters
-    }
-}
-
-fn index(wire: &IndexWire) -> Option<Medium> {
-    let k = wire.k?.or_else(|| IndexK::new(0.0).ok())?;
-    Some(Medium::Index(RefractiveIndex { n: wire.n?, k }))
-}
-
-/// Reads n and k for their own errors only.
-fn ignore_index(fields: &mut Fields, reader: &mut Reader) {
-    fields.take_named::<Option<IndexN>>(reader, "n");
-    fields.take_named::<Option<IndexK>>(reader, "k");
 }
 
 object! {

@@ -1,5 +1,6 @@
 //! Numerical building blocks, each with a stated error.
 
+pub mod cubature;
 pub mod dispatch;
 pub mod elementary;
 pub mod erfc_integral;
