@@ -152,7 +152,7 @@ fn much_work_ends_at_the_limit_of_processor_time() {
     let response = server.post("/v1/albedo", body.to_string());
     let status = response.status().as_u16();
     let document = problem(response, status);
-    assert!(document["type"].as_str().unwrap().ends_with("cpu-time"), "{document}");
+    assert!(document["type"].as_str().unwrap().ends_with("cpu-time-exceeded"), "{document}");
     assert!(document["detail"].as_str().unwrap().contains("0.02 s"), "{document}");
 }
 
