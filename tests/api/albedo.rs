@@ -149,9 +149,7 @@ fn much_work_ends_at_the_limit_of_processor_time() {
     let server = Server::with(&["--cpu-limit-seconds", "0.02"]);
     let mut body = scene(&json!((0..1000).map(|i| 0.09 * f64::from(i)).collect::<Vec<_>>()));
     body["accuracy"] = json!({"relative_tolerance": 1e-10});
-    let response = server.post("/v1/albedo", body.to_string());
-    let status = response.status().as_u16();
-    let document = problem(response, status);
+    let document = problem(server.post("/v1/albedo", body.to_string()), 422);
     assert!(document["type"].as_str().unwrap().ends_with("cpu-time-exceeded"), "{document}");
     assert!(document["detail"].as_str().unwrap().contains("0.02 s"), "{document}");
 }

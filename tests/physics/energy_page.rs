@@ -16,14 +16,20 @@ const WIDTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.6];
 const LENGTH: f64 = 20_000.0;
 
 fn head(text: &mut String, first: &str) {
-    let zeniths: String = INCIDENCES.iter().map(|theta_i| format!(" {theta_i}° |")).collect();
-    writeln!(text, "| {first} |{zeniths}\n|{}", " --- |".repeat(INCIDENCES.len() + 1)).expect("string");
+    write!(text, "| {first} |").expect("string");
+    for theta_i in INCIDENCES {
+        write!(text, " {theta_i}° |").expect("string");
+    }
+    writeln!(text, "\n|{}", " --- |".repeat(INCIDENCES.len() + 1)).expect("string");
 }
 
 /// One row to three digits behind the point.
 fn row(text: &mut String, name: &str, value: impl Fn(f64) -> f64) {
-    let cells: String = INCIDENCES.iter().map(|&theta_i| format!(" {:.3} |", value(theta_i))).collect();
-    writeln!(text, "| {name} |{cells}").expect("string");
+    write!(text, "| {name} |").expect("string");
+    for theta_i in INCIDENCES {
+        write!(text, " {:.3} |", value(theta_i)).expect("string");
+    }
+    text.push('\n');
 }
 
 /// The specular lobe's albedo.

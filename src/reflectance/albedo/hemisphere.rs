@@ -331,7 +331,7 @@ impl Hemisphere {
 
 impl Ring {
     /// `end` − |ψ| at a position along the square's second side, and its derivative.
-    fn from_end(&self, position: f64) -> (f64, f64) {
+    fn beyond_end(&self, position: f64) -> (f64, f64) {
         let Interval { low, length, scale, decades } = self.azimuths;
         let (rest, derivative) = eased(position, self.soft);
         let (place, derivative) = (self.part[0] + self.part[1] * rest, self.part[1] * derivative);
@@ -344,7 +344,7 @@ impl Ring {
 
     /// The facet at a position along the second side of the square.
     pub(super) fn facet(&self, position: f64) -> Facet {
-        let (from_end, derivative) = self.from_end(position);
+        let (from_end, derivative) = self.beyond_end(position);
         let half = SinCos::of_radians(0.5 * from_end);
         let turned = SinCos { sin: 2.0 * half.sin * half.cos, cos: 1.0 - 2.0 * half.sin * half.sin };
         let SinCos { sin, cos } = self.end_sines;
