@@ -72,10 +72,17 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Finds what is required of a scene in these directions.
-    pub fn new(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Self {
+    /// Finds what is required of a scene in these directions; `is_over` is asked before each mean over slopes whether to
+    /// stop, and what is missing then is worked out where it is needed.
+    pub fn new(
+        scene: &Scene,
+        directions: &Directions,
+        quantity: Quantity,
+        output: Output,
+        is_over: impl Fn() -> bool,
+    ) -> Self {
         let requirement = Requirement::of(scene, directions);
-        Self::required(scene, directions, quantity, output, requirement)
+        Self::required(scene, directions, quantity, output, requirement, is_over)
     }
 
     /// With what is required known.
@@ -85,10 +92,11 @@ impl Prepared {
         quantity: Quantity,
         output: Output,
         requirement: Requirement,
+        is_over: impl Fn() -> bool,
     ) -> Self {
         let Requirement { evaluated, omitted, share, extents } = requirement;
         let needed = scene.with_only(&evaluated);
-        let averages = SlopeAverages::of(&needed, directions);
+        let averages = SlopeAverages::of(&needed, directions, is_over);
         Self { scene: needed, quantity, output, share, averages, omitted, extents, asked: scene.clone() }
     }
 
@@ -204,7 +212,7 @@ pub const fn average_cost(sources: usize) -> f64 {
 ///
 /// A direction's answer does not depend on the others.
 pub fn evaluate(scene: &Scene, directions: &Directions, quantity: Quantity, output: Output) -> Evaluation {
-    Prepared::new(scene, directions, quantity, output).whole(directions)
+    Prepared::new(scene, directions, quantity, output, || false).whole(directions)
 }
 
 /// Evaluates what is required of a scene.
@@ -215,5 +223,5 @@ pub(super) fn evaluate_required(
     output: Output,
     requirement: Requirement,
 ) -> Evaluation {
-    Prepared::required(scene, directions, quantity, output, requirement).whole(directions)
+    Prepared::required(scene, directions, quantity, output, requirement, || false).whole(directions)
 }

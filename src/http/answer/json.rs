@@ -42,7 +42,7 @@ fn whole_curves(
         if is_over() {
             break;
         }
-        let curve = work.prepare(index)?;
+        let curve = work.prepare(index, &is_over)?;
         let stretch = work.stretch(&curve, 0..work.points(), &is_over)?;
         begin_curve(&curve, index, text)?;
         let mut total = 0..0;
@@ -111,7 +111,7 @@ pub(super) async fn stream(work: Arc<Work>, output: Output) -> Result<(), End> {
     }
     for index in 0..work.curves() {
         let prepare = Arc::clone(&work);
-        let curve = output.run(move |_| prepare.prepare(index)).await??;
+        let curve = output.run(move |job| prepare.prepare(index, || job.is_stopped())).await??;
         begin_curve(&curve, index, &mut text)?;
         stream_curve(&work, &curve, &mut text, &output).await?;
         end_curve(&curve, &mut text);

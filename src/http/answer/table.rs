@@ -41,7 +41,7 @@ struct Table {
 
 /// A small answer, at once.
 pub(super) fn whole(work: &Work, format: RowFormat) -> Result<Vec<u8>, Problem> {
-    let curves = (0..work.curves()).map(|index| work.prepare(index)).collect::<Result<_, _>>()?;
+    let curves = (0..work.curves()).map(|index| work.prepare(index, || false)).collect::<Result<_, _>>()?;
     let table = Table::new(work, format, curves)?;
     let mut bytes = format.head(&table.head)?;
     bytes.append(&mut table.rows(work, 0..work.curves(), &(0..work.points()), || false)?);
@@ -59,7 +59,9 @@ pub(super) async fn stream(work: Arc<Work>, format: RowFormat, output: Output) -
         };
         let prepared = output.run_all(groups.map(|curves| {
             let work = Arc::clone(&work);
-            move |_: &Job| curves.map(|index| work.prepare(index)).collect::<Result<Vec<_>, _>>()
+            move |job: &Job| {
+                curves.map(|index| work.prepare(index, || job.is_stopped())).collect::<Result<Vec<_>, _>>()
+            }
         }));
         pin_mut!(prepared);
         while let Some(group) = prepared.next().await {

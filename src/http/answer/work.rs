@@ -182,8 +182,8 @@ impl Work {
         sources * self.spectrum().map_or(1, <[Line]>::len)
     }
 
-    /// Finds what a curve requires, `index` below [`Self::curves`].
-    pub(super) fn prepare(&self, index: usize) -> Result<Curve, Problem> {
+    /// Finds what a curve requires, `index` below [`Self::curves`]; `is_over` says whether to stop.
+    pub(super) fn prepare(&self, index: usize, is_over: impl Fn() -> bool) -> Result<Curve, Problem> {
         let at_deg = match &self.over {
             Over::Directions(_) => None,
             Over::Sweep(sweep) => Some(sweep.at()[index % self.fixed_angles()]),
@@ -194,7 +194,8 @@ impl Work {
             Subject::Scene { scene, quantity, output, .. } => {
                 let lit = line.map(|line| scene.with_light(line.wavelength, line.index()));
                 let scene = lit.as_ref().unwrap_or(scene);
-                let prepared = |directions: &_| Prepared::new(scene, directions, *quantity, *output);
+                let prepared =
+                    |directions: &_| Prepared::new(scene, directions, *quantity, *output, &is_over);
                 Model::Scene(Arc::new(match &self.over {
                     Over::Directions(directions) => prepared(directions),
                     Over::Sweep(sweep) => {

@@ -143,7 +143,8 @@ pub(crate) struct AlbedoAnswer {
     #[schema(nullable = false)]
     specular_spike: Option<Numbers>,
     /// Bound of the relative error of `total` against the exact value of the model for the numbers as given; null where no
-    /// bound below infinity is known.
+    /// bound below infinity is known. Where a lobe was integrated it is twice what the rule says of its own error: tried on
+    /// thousands of scenes, not proven as the bounds of radiances are.
     relative_error_bound: Numbers,
     /// F′ of (63) at θ_i: what a smooth plate reflects, 1 for a perfect conductor.
     fresnel_reflectance: Numbers,

@@ -20,8 +20,12 @@ pub(in crate::reflectance) struct SlopeAverages {
 }
 
 impl SlopeAverages {
-    /// Of a scene in these directions; nothing where it does not ask for them.
-    pub(in crate::reflectance) fn of(scene: &Scene, directions: &Directions) -> Self {
+    /// Of a scene in these directions; nothing where it does not ask for them, and no more once it is over.
+    pub(in crate::reflectance) fn of(
+        scene: &Scene,
+        directions: &Directions,
+        is_over: impl Fn() -> bool,
+    ) -> Self {
         if !scene.averages_slopes() {
             return Self::default();
         }
@@ -31,7 +35,8 @@ impl SlopeAverages {
         sources.dedup();
         let none = Self::default();
         let reflectivity = Reflectivity::of(scene, &none);
-        Self { means: sources.into_iter().map(|source| (source, reflectivity.averaged(source))).collect() }
+        let wanted = sources.into_iter().take_while(|_| !is_over());
+        Self { means: wanted.map(|source| (source, reflectivity.averaged(source))).collect() }
     }
 
     fn at(&self, source: SinCos) -> Option<Energy> {
