@@ -16,7 +16,7 @@ if ! cargo fuzz --version 2>/dev/null | grep -q "$VERSION"; then
     cargo install cargo-fuzz --version "$VERSION" --locked --debug --root target/tools --target-dir target/tools/build
 fi
 
-fuzz() { cargo +nightly fuzz "$@" --target-dir "$PWD/target/fuzz"; }
+fuzz() { cargo +nightly fuzz "$1" --target-dir "$PWD/target/fuzz" "${@:2}"; }
 fuzz build
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets < <(cargo +nightly fuzz list)

@@ -112,6 +112,20 @@ impl Service {
         fs::read_dir(format!("/proc/{}/fd", self.process.id())).expect("it runs").count()
     }
 
+    /// Open descriptors once connections have come and gone: their number stands still for a while.
+    pub(crate) fn settled_descriptors(&self) -> usize {
+        let mut count = self.descriptors();
+        let mut since = Instant::now();
+        until(Duration::from_secs(10), "connections come and go no more", || {
+            let now = self.descriptors();
+            if now != count {
+                (count, since) = (now, Instant::now());
+            }
+            since.elapsed() > Duration::from_millis(500)
+        });
+        count
+    }
+
     /// Processor time of each of its threads so far.
     pub(crate) fn work(&self) -> Work {
         let folder = format!("/proc/{}/task", self.process.id());
