@@ -26,6 +26,10 @@ impl IntoResponses for PostProblems {
                 "The body is of a media type or in a content coding that is not read; the detail lists those that are.",
             ),
             (Kind::InvalidRequest, "Fields are out of range or inconsistent: `errors` points at every one."),
+            (
+                Kind::HeadTooLarge,
+                "Target and fields of the request are larger than the limit, which the detail names.",
+            ),
             (Kind::TooSlow, "The answer was not ready within the time limit."),
         ])
     }
@@ -42,6 +46,10 @@ impl IntoResponses for GetProblems {
             (
                 Kind::InvalidRequest,
                 "Parameters are out of range or inconsistent: `errors` points at every one.",
+            ),
+            (
+                Kind::HeadTooLarge,
+                "Target and fields of the request are larger than the limit, which the detail names.",
             ),
             (Kind::TooSlow, "The answer was not ready within the time limit."),
         ])
