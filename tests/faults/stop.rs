@@ -13,22 +13,25 @@ struct Tally {
     answered: AtomicUsize,
     otherwise: AtomicUsize,
     failed: AtomicUsize,
+    /// Failed as the first of a connection, when the port was closed.
+    late: AtomicUsize,
 }
 
 impl Tally {
-    fn counts(&self) -> [usize; 3] {
-        [&self.answered, &self.otherwise, &self.failed].map(|count| count.load(Ordering::Relaxed))
+    fn counts(&self) -> [usize; 4] {
+        [&self.answered, &self.otherwise, &self.failed, &self.late].map(|count| count.load(Ordering::Relaxed))
     }
 }
 
 /// Asks until the port is closed. A connection that the server said it would close is not used again.
 fn keep_asking(address: &str, request: &[u8], tally: &Tally) {
     while let Ok(mut connection) = Connection::open(address) {
-        loop {
+        for place in 0.. {
             let answer = connection.send(request).and_then(|()| connection.answer_dropped());
             let count = match &answer {
                 Ok(answer) if answer.status == 200 => &tally.answered,
                 Ok(_) => &tally.otherwise,
+                Err(_) if place == 0 && Connection::open(address).is_err() => &tally.late,
                 Err(_) => &tally.failed,
             };
             count.fetch_add(1, Ordering::Relaxed);
@@ -57,12 +60,14 @@ fn a_stop_under_load_fails_no_accepted_request() {
         let begin = Instant::now();
         (service.ended(Duration::from_secs(25)), begin.elapsed())
     });
-    let [answered, otherwise, failed] = tally.counts();
+    let [answered, otherwise, failed, late] = tally.counts();
     println!(
-        "SIGTERM under load: {answered} answered, {otherwise} answered otherwise, {failed} failed; \
+        "SIGTERM under load: {answered} answered, {otherwise} answered otherwise, {failed} failed, {late} late; \
          ended after {taken:.2?}, {status}"
     );
     assert!(answered > 100);
     assert_eq!((otherwise, failed), (0, 0));
+    // The system may finish a handshake between the last accept and the close of the port: nobody accepted that one.
+    assert!(late <= 1, "{late}");
     assert_eq!(status.code(), Some(0));
 }
