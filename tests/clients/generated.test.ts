@@ -8,8 +8,7 @@ import type { components, paths } from "./document.js";
 
 type RadianceRequest = components["schemas"]["RadianceRequest"];
 
-const baseUrl = process.env["REFLECTANCE_URL"];
-const key = process.env["REFLECTANCE_KEY"];
+const { REFLECTANCE_URL: baseUrl = "", REFLECTANCE_KEY: key = "" } = process.env;
 const client = createClient<paths>({ baseUrl, headers: { authorization: `Bearer ${key}` } });
 
 const scene: RadianceRequest = {
@@ -22,7 +21,7 @@ const scene: RadianceRequest = {
 test("radiance", async () => {
   const { data, error } = await client.POST("/v1/radiance", { body: scene });
   assert.equal(error, undefined);
-  assert.ok(data && "total" in data);
+  assert.ok(typeof data === "object" && "total" in data);
   assert.deepEqual(data.total, [9.870528376282403, 1.9158949680966844]);
   assert.equal(data.omitted[0]?.component, "specular_spike");
 });
@@ -30,7 +29,7 @@ test("radiance", async () => {
 test("radiance at several wavelengths", async () => {
   const body: RadianceRequest = { ...scene, illumination: { wavelength_um: [0.45, 0.55] } };
   const { data } = await client.POST("/v1/radiance", { body });
-  assert.ok(data && "spectrum" in data);
+  assert.ok(typeof data === "object" && "spectrum" in data);
   assert.deepEqual(data.spectrum.map((line) => line.wavelength_um), [0.45, 0.55]);
 });
 
@@ -52,7 +51,7 @@ test("diagram", async () => {
       at_deg: [30, 60],
     },
   });
-  assert.ok(data);
+  assert.ok(typeof data === "object");
   assert.deepEqual(data.series.map((series) => [series.at_deg, series.total?.length]), [[30, 81], [60, 81]]);
 });
 
