@@ -57,4 +57,5 @@ fi
 begin=$SECONDS
 buildah build "${arguments[@]}" . >"$work/build.log" 2>&1 || { tail -n 30 "$work/build.log"; exit 1; }
 echo "container: built in $((SECONDS - begin)) s"
-exec python3 scripts/container/check.py
+[[ -n $binary ]] || tests=--all
+exec python3 scripts/container/check.py ${tests:-}

@@ -34,7 +34,10 @@ fn the_document_is_complete() {
         for (method, operation) in item.as_object().unwrap() {
             assert!(operation["summary"].is_string(), "{method} {path} has no summary");
             let name = operation["operationId"].as_str().expect("a name for generated clients");
-            assert!(names.insert(name.to_owned()), "{method} {path} is called {name} as another operation is");
+            assert!(
+                names.insert(name.to_owned()),
+                "{method} {path} is called {name} as another operation is"
+            );
             for (status, response) in operation["responses"].as_object().unwrap() {
                 let description = response["description"].as_str().unwrap_or_default();
                 assert!(!description.is_empty(), "{method} {path} {status} has no description");
