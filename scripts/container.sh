@@ -37,6 +37,8 @@ base() {
     debootstrap --variant=minbase --include=gcc,libc6-dev,make,ca-certificates bookworm "$root" >"$work/debootstrap.log"
     sysroot=$(rustc --print sysroot)
     mkdir -p "$root/usr/local/cargo"
+    # Whom this machine trusts, a proxy of its network perhaps among them.
+    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
     cp -a "$sysroot/bin" "$sysroot/lib" "$root/usr/local/"
     tar -C "$root" -c . | podman import --quiet --change ENV=CARGO_HOME=/usr/local/cargo - "$image"
     rm -rf "$root"
