@@ -33,6 +33,7 @@ pub mod outline;
 pub mod plan;
 pub mod quantity;
 pub mod radiometry;
+mod receiver;
 mod region;
 mod requirement;
 pub mod roughness;

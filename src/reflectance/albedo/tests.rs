@@ -115,6 +115,7 @@ fn parameters(model: Model, lengths: [f64; 2], tolerance: f64) -> SceneParameter
             polarization: Polarization::unpolarized(),
         },
         sensor: None,
+        receiver: None,
         components: Components::Auto,
         accuracy: Accuracy { relative_tolerance: Tolerance::new(tolerance).unwrap(), method: Method::Auto },
     }
