@@ -37,6 +37,8 @@ mod receiver;
 mod region;
 mod requirement;
 pub mod roughness;
+#[cfg(test)]
+mod samples;
 pub mod scattered_power;
 pub mod scene;
 pub mod shadowing;

@@ -3,9 +3,9 @@
 use super::light::{self, IlluminationWire, Light, Lit};
 use super::sensor::{SensorWire, sensor_needs};
 use crate::http::input::medium::MediumWire;
-use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::{Fields, Reader};
-use crate::http::input::wire::{self, Schemas, is_given};
+use crate::http::input::object::{Checked, object};
+use crate::http::input::reader::Reader;
+use crate::http::input::wire::is_given;
 use crate::http::problem::{Code, Problem};
 use crate::reflectance::bounds::DEFAULT_TOLERANCE;
 use crate::reflectance::fresnel::Polarization;
@@ -18,7 +18,6 @@ use crate::reflectance::quantity::{
 };
 use crate::reflectance::scene::{self, Accuracy, Components, Model, Scene, SceneParameters};
 use crate::reflectance::shadowing::Shadowing;
-use utoipa::openapi::schema::ObjectBuilder;
 
 object! {
     partial
@@ -182,12 +181,10 @@ impl CheckedScene {
     }
 }
 
-impl WireObject for CheckedScene {
-    const NAME: &'static str = SceneWire::NAME;
-    const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
+impl Checked for CheckedScene {
+    type Fields = SceneWire;
 
-    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let wire = SceneWire::take(fields, reader)?;
+    fn check(wire: SceneWire, reader: &mut Reader) -> Option<Self> {
         for error in wire.outline().errors() {
             note(&error, reader);
         }
@@ -195,22 +192,6 @@ impl WireObject for CheckedScene {
         // What is wrong with the whole was just noted.
         let scene = Scene::new(wire.into_parameters(&lit, DEFAULT_TOLERANCE)?).ok()?;
         Some(Self { scene, light: lit.light })
-    }
-
-    fn names() -> Vec<&'static str> {
-        SceneWire::names()
-    }
-
-    fn properties(object: ObjectBuilder) -> ObjectBuilder {
-        SceneWire::properties(object)
-    }
-
-    fn inner(schemas: &mut Schemas) {
-        SceneWire::inner(schemas);
-    }
-
-    fn query_parameters(required: bool) -> Vec<wire::Parameter> {
-        SceneWire::query_parameters(required)
     }
 }
 

@@ -62,7 +62,7 @@ const CAMERA: [&str; 5] = ["pixel_area_um2", "distance_um", "focal_length_um", "
 
 /// The half angle of a receiver; none is a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HalfAngle(Option<ReceiverHalfAngle>);
+pub(crate) struct HalfAngle(Option<ReceiverHalfAngle>);
 
 impl Wire for HalfAngle {
     const RANGE: Option<&'static Bounds> = Some(&RECEIVER_HALF_ANGLE);
@@ -86,7 +86,7 @@ impl Wire for HalfAngle {
 
 /// What is said of a sensor.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SensorWire {
+pub(crate) struct SensorWire {
     /// What it sees, if that is given.
     pub(super) seen: Option<Sensor>,
     /// Its half angle, if it is not a point.

@@ -159,7 +159,7 @@ impl Cone {
         if beyond < -40.0 * slope.max(1e-3 * self.half_angle) {
             return 0.0;
         }
-        f64::EPSILON * 16.0 * (1.0 + self.distance / width) * (self.distance + self.half_angle) / width
+        f64::EPSILON * 16.0 * (1.0 + beyond.abs() / width) * (self.distance + self.half_angle) / width
     }
 
     /// ∫ cos θ_r dω of what is above the horizon, with its relative error.
@@ -296,6 +296,8 @@ impl Cone {
         let towards = SinCos::of_radians(self.bearing + around);
         // The chord that the cone cuts out of the great circle: its middle and half its length.
         let middle = libm::atan2(self.apart.sin * libm::cos(around), self.apart.cos);
+        // Behind the source it is beyond the antipode rather than before the beginning.
+        let middle = if self.apart.cos < 0.0 && middle < 0.0 { middle + TAU } else { middle };
         let half = libm::atan2(grazing, self.half.cos);
         let horizon = libm::atan2(self.source.cos, self.source.sin * towards.cos);
         let far = (middle + half).min(horizon).max(0.0);

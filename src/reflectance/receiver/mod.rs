@@ -14,6 +14,7 @@ use super::degrees::{SinCos, to_radians};
 use super::directions::Directions;
 use super::estimate::Estimate;
 use super::evaluate::{EvaluatedBy, Quantity, Stretch};
+use super::fresnel::Medium;
 use super::kernel::{Kernel, Reflection};
 use super::numeric::EPSILON;
 use super::numeric::cubature::{self, Goal, Grid, NODES};
@@ -23,14 +24,19 @@ use super::numeric::lobe_series::lanes::{self, Batch, LANES};
 use super::numeric::scaled::Scaled;
 use super::quantity::{Quantity as _, ReceiverHalfAngle, Tolerance};
 use super::scene::{Accuracy, Component, Scene};
+use super::shadowing::ShadowingFunction;
 use super::unified;
 use cone::{Cone, Viewer};
+use core::f64::consts::PI;
 use core::ops::Range;
 
 /// Rectangles of a rule at most: some 30 ms.
 const MOST_RECTANGLES: usize = 1000;
+/// The error stated is so many times what the rule says: where all is smooth, and where the squares hold kinks.
+const CAUTION: f64 = 2.0;
+const CAUTION_AT_KINKS: f64 = 4.0;
 /// Of the tolerance, what the lobe may be off at each viewer. The rule counts it twice and has what is left.
-const SHARE_OF_VIEWERS: f64 = 0.1;
+const SHARE_OF_VIEWERS: f64 = 0.02;
 /// Rounding of a viewer's place and of what surrounds the lobe there, in ε, and for each power of e by which the lobe falls.
 const VIEWER_UNITS: f64 = 64.0;
 const FALL_UNITS: f64 = 64.0;
@@ -123,6 +129,15 @@ impl Receiver {
         Some(Reflection { total: Estimate::total(&components), components, evaluated_by })
     }
 
+    /// Kinks are G's of (65), and where n < 1 begins to reflect all.
+    fn caution(&self) -> f64 {
+        let medium = self.scene.parameters().surface.medium;
+        let is_critical =
+            matches!(medium, Medium::Index(index) if index.n.get() < 1.0 && index.k.get() < 0.5);
+        let is_folded = self.scene.shadowing_function() == ShadowingFunction::VGroove;
+        if is_folded || is_critical { CAUTION_AT_KINKS } else { CAUTION }
+    }
+
     /// tan α of the facets that make the lobe, about.
     fn slope(&self, source: SinCos) -> f64 {
         match (&self.scene.facets, self.scene.relative_roughness()) {
@@ -167,18 +182,26 @@ impl Receiver {
         beside: Scaled,
         is_over: impl Fn() -> bool,
     ) -> Option<Estimate> {
-        // Values in units of what is most of it, so that none of those that matter underflows.
-        let unit = kernel.lobe(&cone.nearest(), None).map_or(Scaled::ZERO, |most| most.value);
-        let unit = if unit.is_zero() || !unit.is_finite() { Scaled::ONE } else { unit };
+        // Values in units of about what is most of it, so that none of those that matter underflows.
+        let nearest = cone.nearest();
+        let most = kernel.lobe(&nearest, None).map_or(Scaled::ZERO, |most| most.value * nearest.cos_r);
+        let unit = if most.is_zero() || !most.is_finite() { Scaled::ONE } else { most };
         let mut nodes = Nodes::new();
-        let goal =
-            Goal { tolerance: self.tolerance, beside: (beside / unit).to_f64(), most: MOST_RECTANGLES };
+        let goal = Goal {
+            tolerance: self.tolerance / self.caution(),
+            beside: (beside / unit).to_f64(),
+            most: MOST_RECTANGLES,
+        };
         let fill = |square: usize, grid: &mut Grid| nodes.fill(kernel, cone, square, unit, grid);
         let sum = cubature::integrate(cone.squares(), goal, is_over, fill)?;
         if !sum.value.is_finite() {
             return Some(if sum.value.is_nan() { Estimate::UNDEFINED } else { Estimate::INFINITE });
         }
-        let error = sum.error + cone.rim(slope) * sum.value;
+        if sum.value == 0.0 && !most.is_zero() {
+            // All of it is in a rim too thin for any point of the rule.
+            return Some(Estimate { value: Scaled::ZERO, error: unit * PI, least: Scaled::ZERO });
+        }
+        let error = self.caution() * sum.error + cone.rim(slope) * sum.value;
         let least = Scaled::new((sum.value - error).max(0.0));
         let whole = Estimate { value: Scaled::new(sum.value), error: Scaled::new(error), least };
         Some(whole.scaled_by(unit))

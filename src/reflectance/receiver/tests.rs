@@ -4,20 +4,17 @@ use crate::reflectance::degrees::SinCos;
 use crate::reflectance::directions::{Angles, Directions};
 use crate::reflectance::estimate::Estimate;
 use crate::reflectance::evaluate::Quantity as Asked;
-use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
+use crate::reflectance::fresnel::{Medium, RefractiveIndex};
 use crate::reflectance::fresnel_average::table::SlopeAverages;
 use crate::reflectance::kernel::Kernel;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::cubature::{self, Goal};
-use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::numeric::scaled::Scaled;
 use crate::reflectance::quantity::{
-    Azimuth, CorrelationLength, Fraction, IndexK, IndexN, Irradiance, Quantity, ReceiverHalfAngle, RmsHeight,
-    SourceZenith, Tolerance, ViewerZenith, Wavelength,
+    Azimuth, IndexK, IndexN, Quantity, ReceiverHalfAngle, SourceZenith, Tolerance, ViewerZenith,
 };
-use crate::reflectance::scene::{
-    Accuracy, Component, Components, Illumination, Model, Scene, SceneParameters, Surface,
-};
+use crate::reflectance::samples::conductor;
+use crate::reflectance::scene::{Accuracy, Component, Components, Model, Scene, SceneParameters};
 use crate::reflectance::shadowing::Shadowing;
 use core::f64::consts::PI;
 
@@ -41,33 +38,16 @@ impl Random {
 
 fn scene(
     model: Model,
-    [height, length]: [f64; 2],
+    lengths: [f64; 2],
     shadowing: Shadowing,
     half_angle: f64,
     tolerance: f64,
 ) -> SceneParameters {
-    SceneParameters {
-        model,
-        surface: Surface {
-            rms_height: Some(RmsHeight::new(height).unwrap()),
-            correlation_length: Some(CorrelationLength::new(length).unwrap()),
-            facet_slope: None,
-            medium: Medium::PerfectConductor,
-            diffuse_albedo: Fraction::ZERO,
-            specular_scale: None,
-            shadowing: Some(shadowing),
-            fresnel_average: None,
-        },
-        illumination: Illumination {
-            wavelength: Some(Wavelength::new(1.0).unwrap()),
-            irradiance: Irradiance::new(1.0).unwrap(),
-            polarization: Polarization::unpolarized(),
-        },
-        sensor: None,
-        receiver: Some(ReceiverHalfAngle::new(half_angle).unwrap()),
-        components: Components::Named(vec![Component::SpecularLobe]),
-        accuracy: Accuracy { relative_tolerance: Tolerance::new(tolerance).unwrap(), method: Method::Auto },
-    }
+    let mut p = conductor(model, lengths, tolerance);
+    p.surface.shadowing = Some(shadowing);
+    p.receiver = Some(ReceiverHalfAngle::new(half_angle).unwrap());
+    p.components = Components::Named(vec![Component::SpecularLobe]);
+    p
 }
 
 fn angles(theta_i: f64, theta_r: f64, phi_r: f64) -> (SourceZenith, ViewerZenith, Azimuth) {
@@ -94,10 +74,10 @@ fn in_frame(
     let averages = SlopeAverages::default();
     let kernel = Kernel::new(receiver.scene(), Asked::Brdf, 0.0, &averages);
     let cone = Cone::new(at, parameters.receiver.unwrap(), slope);
-    let unit = kernel.lobe(&cone.nearest(), None).unwrap().value;
+    let unit = kernel.lobe(&cone.nearest(), None).unwrap().value * cone.nearest().cos_r;
     let unit = if unit.is_zero() || !unit.is_finite() { Scaled::ONE } else { unit };
     let mut nodes = Nodes::new();
-    let goal = Goal { tolerance: receiver.tolerance, beside: 0.0, most: 3000 };
+    let goal = Goal { tolerance: receiver.tolerance / receiver.caution(), beside: 0.0, most: 3000 };
     let sum = cubature::integrate(
         cone.squares(),
         goal,
@@ -106,7 +86,7 @@ fn in_frame(
     )
     .unwrap();
     let rim = cone.rim(receiver.slope(SinCos::of_degrees(at.0.get())));
-    let error = sum.error + rim * sum.value;
+    let error = receiver.caution() * sum.error + rim * sum.value;
     let all = Estimate { value: Scaled::new(sum.value), error: Scaled::new(error), least: Scaled::ZERO };
     (all.scaled_by(unit), cone.projected().0.to_f64())
 }
@@ -175,7 +155,10 @@ fn both_frames_say_the_same() {
             let share = (off / bound).to_f64();
             worst = worst.max(share);
             assert!(
-                off.to_f64() <= bound.to_f64() || off.is_zero(),
+                off.to_f64() <= bound.to_f64() || off.is_zero() || {
+                    println!("BAD {case} {name} {share} {tolerance} {p:?} {at:?}");
+                    std::env::var("GO_ON").is_ok()
+                },
                 "case {case}, {name}: {p:?}\nat {at:?}: {one:?} against {other:?}"
             );
         }
@@ -237,6 +220,35 @@ fn a_small_cone_reads_its_axis() {
             assert!(off < 1e-10 && read.relative_error() < 1e-10, "{half_angle} {at:?}: {off:e} {read:?}");
         }
     }
+}
+
+#[test]
+fn half_a_narrow_lobe_is_within_a_rim_that_cuts_it() {
+    for facet_slope in [1e-3, 1e-6, 1e-9] {
+        let read = |theta_r: f64| {
+            let mut p = scene(Model::TorranceSparrow, [1.0, 10.0], Shadowing::None, 1.0, 1e-6);
+            p.surface.facet_slope = Some(Quantity::new(facet_slope).unwrap());
+            let at = angles(75.0, theta_r, 0.0);
+            let (_, projected) = in_frame(&p, at, 1.0);
+            mean(&p, at).scaled_by(Scaled::new(projected))
+        };
+        let whole = read(75.0);
+        for theta_r in [74.0, 76.0] {
+            let half = read(theta_r);
+            // The rim is straight, and the lobe even, but for the width.
+            let off = (half.value.to_f64() / whole.value.to_f64() - 0.5).abs();
+            assert!(off < facet_slope + 1e-5, "{facet_slope} {theta_r}: {off:e}");
+            assert!(half.relative_error() < 1e-4, "{half:?}");
+        }
+    }
+}
+
+#[test]
+fn what_no_point_of_the_rule_meets_is_not_nothing() {
+    let mut p = scene(Model::TorranceSparrow, [1.0, 10.0], Shadowing::None, 1e-11, 1e-6);
+    p.surface.facet_slope = Some(Quantity::new(1e-12).unwrap());
+    let read = mean(&p, angles(75.0, 76.0, 0.0));
+    assert!(read.value.is_zero() && !read.error.is_zero() && read.error.to_f64() == 0.0, "{read:?}");
 }
 
 #[test]
