@@ -154,7 +154,7 @@ pub const FIGURES: [Figure; 38] = [
     facets("21f", "σ_α = 17°", 17.0, SweepAxis::ThetaR),
     Figure {
         id: "22",
-        title: "The three reflection components over the viewing angle (polar in the report)",
+        title: "The three reflection components over the viewing angle",
         parameters: components_of_section_5::PARAMETERS,
         content: Content::Components { axis: SweepAxis::ThetaR },
     },
@@ -172,7 +172,7 @@ pub const FIGURES: [Figure; 38] = [
     facets("23f", "σ_α = 15.416°", 15.416, SweepAxis::ThetaI),
     Figure {
         id: "24",
-        title: "The three reflection components over the source angle (polar in the report)",
+        title: "The three reflection components over the source angle",
         parameters: components_of_section_5::PARAMETERS,
         content: Content::Components { axis: SweepAxis::ThetaI },
     },
@@ -195,6 +195,11 @@ pub struct Panel {
 }
 
 impl Figure {
+    /// Whether the report draws it as a polar plot.
+    pub const fn is_polar(&self) -> bool {
+        matches!(self.content, Content::Components { .. })
+    }
+
     /// Computes the figure.
     pub fn evaluate(&self, log10: bool) -> Result<Vec<Panel>, OutOfBounds> {
         let bs = "Beckmann-Spizzichino (47)";
