@@ -71,7 +71,8 @@ async fn make(work: Arc<Work>, picture: Picture, options: Options, output: Outpu
         for (curves, is_whole) in groups {
             if is_whole {
                 let of_group = Arc::clone(&work);
-                let drawn = output.run(move |job: &Job| whole(&of_group, curves, columns, shown, job)).await?;
+                let drawn =
+                    output.run(move |job: &Job| whole(&of_group, curves, columns, shown, job)).await?;
                 parts.append(&mut drawn?);
                 continue;
             }
@@ -147,7 +148,8 @@ fn kinds(is_log: bool) -> [&'static str; 4] {
 
 /// The plot without its curves.
 fn frame(work: &Work) -> Result<Plot, Problem> {
-    let (Subject::Scene { scene, light, quantity, .. }, Over::Sweep(sweep)) = (&work.subject, &work.over) else {
+    let (Subject::Scene { scene, light, quantity, .. }, Over::Sweep(sweep)) = (&work.subject, &work.over)
+    else {
         tracing::error!("only sweeps of a scene are drawn");
         return Err(Problem::internal());
     };
@@ -168,12 +170,13 @@ fn gather(plot: &mut Plot, parts: Vec<Part>, curves: usize) {
     let is_alone = curves == 1;
     for (index, kind, mut points) in parts {
         let (colour, dash) = if is_alone { (kind, 0) } else { (index, kind) };
-        match plot.curves.iter_mut().rev().take(4).find(|curve| (curve.colour, curve.dash) == (colour, dash)) {
+        match plot.curves.iter_mut().rev().take(4).find(|curve| (curve.colour, curve.dash) == (colour, dash))
+        {
             Some(curve) => curve.points.append(&mut points),
             None => plot.curves.push(plot::Curve { colour, dash, points }),
         }
     }
-    let kinds = [["total"].as_slice(), &Component::ALL.map(plot::component)].concat();
+    let kinds = [[plot::TOTAL].as_slice(), &Component::ALL.map(plot::component)].concat();
     let kinds: Vec<String> = kinds.into_iter().map(str::to_owned).collect();
     if is_alone {
         plot.colours = kinds;

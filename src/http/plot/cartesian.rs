@@ -64,7 +64,7 @@ pub(super) fn draw(area: &Area, plot: &Plot, values: &ValueAxis, style: &Style) 
     let width = f64::from(area.dim_in_pixel().0) / super::TENTHS;
     let angles = Axis::new((left, right), degrees(plot.ends, width / MARK_WIDTH));
     let mut chart = ChartBuilder::on(area)
-        .margin_top(tenths(8.0))
+        .margin_top(tenths(12.0))
         .margin_right(tenths(22.0))
         .margin_left(tenths(10.0))
         .margin_bottom(tenths(10.0))
@@ -80,7 +80,7 @@ pub(super) fn draw(area: &Area, plot: &Plot, values: &ValueAxis, style: &Style) 
         .axis_style(style.axis.stroke_width(10))
         .set_all_tick_mark_size(tenths(4.0))
         .x_desc(format!("{name} {symbol} (degrees)"))
-        .y_desc(values.label(&plot.quantity, &plot.unit))
+        .y_desc(values.label(plot.quantity, &plot.unit))
         .label_style(letters(MARKS, style.text))
         .axis_desc_style(label.clone())
         .draw()?;
@@ -92,7 +92,12 @@ pub(super) fn draw(area: &Area, plot: &Plot, values: &ValueAxis, style: &Style) 
                 let (x, y) = chart.backend_coord(point);
                 (x - x0, y - y0)
             });
-            stroke(area, points.collect(), style.curve(curve.colour), curve.dash)?;
+            stroke(
+                area,
+                points.collect(),
+                style.line(curve.colour, curve.dash, plot.dashes.len()),
+                curve.dash,
+            )?;
         }
     }
     if values.is_empty {

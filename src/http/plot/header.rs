@@ -9,7 +9,9 @@ use plotters::style::TextStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Sizes of letters, pixels.
-const TITLE: f64 = 15.5;
+const TITLE: f64 = 15.0;
+/// How much wider bold letters are.
+const BOLD: f64 = 1.16;
 const SMALL: f64 = 12.5;
 const LEGEND: f64 = 13.0;
 /// From one line to the next, in ems.
@@ -35,8 +37,8 @@ pub(super) fn draw(
     options: &Options,
 ) -> Result<i32, Box<dyn std::error::Error + Send + Sync>> {
     let width = options.width as f64 - 2.0 * MARGIN;
-    let mut pen = Pen { root, y: 12.0, limit: SHARE * options.height as f64 };
-    pen.lines(&wrapped(&plot.title, width / TITLE), TITLE, &bold(TITLE, style.text))?;
+    let mut pen = Pen { root, y: 12.0, limit: SHARE * options.height as f64, kinds: plot.dashes.len() };
+    pen.lines(&wrapped(&plot.title, width / (TITLE * BOLD)), TITLE, &bold(TITLE, style.text))?;
     pen.y += 2.0;
     let entries = entries(plot);
     let rows = rows(&entries, width);
@@ -59,6 +61,8 @@ struct Pen<'a, 'b> {
     root: &'a Area<'b>,
     y: f64,
     limit: f64,
+    /// How many kinds of lines there are.
+    kinds: usize,
 }
 
 impl Pen<'_, '_> {
@@ -83,9 +87,16 @@ impl Pen<'_, '_> {
         for entry in entries {
             if let Some((colour, dash)) = entry.line {
                 let ends = [x, x + SAMPLE].map(|x| (tenths(x), middle)).to_vec();
-                let colour = colour.map_or(style.muted, |colour| style.curve(colour));
-                stroke(self.root, ends, colour, dash)?;
-                self.root.draw(&Text::new(entry.text.clone(), (tenths(x + SAMPLE + GAP), middle), text.clone()))?;
+                let line = match colour {
+                    Some(colour) => style.line(colour, 0, 1),
+                    None => style.sample(dash, self.kinds),
+                };
+                stroke(self.root, ends, line, dash)?;
+                self.root.draw(&Text::new(
+                    entry.text.clone(),
+                    (tenths(x + SAMPLE + GAP), middle),
+                    text.clone(),
+                ))?;
             } else {
                 self.root.draw(&Text::new(entry.text.clone(), (tenths(x), middle), text.clone()))?;
             }
@@ -123,7 +134,10 @@ fn entries(plot: &Plot) -> Vec<Entry> {
     }
     if plot.dashes.len() > 1 {
         entries.extend(
-            plot.dashes.iter().enumerate().map(|(dash, text)| Entry { text: text.clone(), line: Some((None, dash)) }),
+            plot.dashes
+                .iter()
+                .enumerate()
+                .map(|(dash, text)| Entry { text: text.clone(), line: Some((None, dash)) }),
         );
     }
     entries

@@ -16,7 +16,7 @@ mod thin;
 mod ticks;
 mod words;
 
-pub(crate) use options::{Form, Options, PlotWire, Scale, Shown};
+pub(crate) use options::{Form, MOST_PIXELS, Options, PlotWire, Scale, Shown};
 pub(crate) use tables::of_figure;
 pub(crate) use thin::{Columns, Point};
 pub(crate) use words::{Words, component, curve_label};
@@ -31,6 +31,9 @@ use ticks::ValueAxis;
 
 /// Curves of one picture: more could not be told apart, however large it is.
 pub(crate) const MOST_CURVES: usize = 400;
+
+/// What the sum of the components is called.
+pub(crate) const TOTAL: &str = "total";
 
 /// What pictures come as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -47,7 +50,7 @@ pub(crate) struct Plot {
     /// The parameters.
     pub(crate) parameters: String,
     /// What the values are.
-    pub(crate) quantity: String,
+    pub(crate) quantity: &'static str,
     /// Their unit.
     pub(crate) unit: String,
     /// The symbol of the swept angle, and what it is.
@@ -81,7 +84,8 @@ type Drawn = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 /// Draws it.
 pub(crate) fn draw(plot: &Plot, picture: Picture, options: &Options) -> Result<Vec<u8>, Problem> {
     let values = ValueAxis::new(plot, options);
-    let style = Style::of(options.theme, plot.colours.len());
+    let has_sum = plot.colours.len() > 1 && plot.colours[0] == TOTAL;
+    let style = Style::of(options.theme, plot.colours.len(), has_sum);
     let mut inside = String::new();
     let drawn = on(&mut inside, plot, &values, &style, options);
     drawn.map_err(|error| {

@@ -4,8 +4,8 @@ use super::style::{Style, letters, placed, stroke};
 use super::ticks::ValueAxis;
 use super::{Area, Drawn, Plot, runs, tenths};
 use plotters::element::{PathElement, Polygon, Text};
+use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{Color as _, RGBColor};
 
 /// Sizes of letters, pixels.
 const MARKS: f64 = 12.5;
@@ -29,10 +29,7 @@ impl Disc {
     /// Where a share of the radius lies in a direction, tenths of a pixel.
     fn at(&self, share: f64, degrees: f64) -> (i32, i32) {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        (
-            tenths(self.centre.0 + self.radius * share * sin),
-            tenths(self.centre.1 - self.radius * share * cos),
-        )
+        (tenths(self.centre.0 + self.radius * share * sin), tenths(self.centre.1 - self.radius * share * cos))
     }
 }
 
@@ -46,12 +43,12 @@ pub(super) fn draw(area: &Area, plot: &Plot, values: &ValueAxis, style: &Style) 
     fixed(area, &disc, plot, style)?;
     for curve in &plot.curves {
         // What is below the least value is at the origin.
-        let places = values.places(curve).map(|(angle, value)| {
-            (angle, if value < values.least { values.least } else { value })
-        });
+        let places = values
+            .places(curve)
+            .map(|(angle, value)| (angle, if value < values.least { values.least } else { value }));
         for run in runs(places, (values.least, values.largest)) {
             let points: Vec<_> = run.iter().map(|&(angle, value)| disc.at(share(value), angle)).collect();
-            stroke(area, points, style.curve(curve.colour), curve.dash)?;
+            stroke(area, points, style.line(curve.colour, curve.dash, plot.dashes.len()), curve.dash)?;
         }
     }
     if values.is_empty {
@@ -97,7 +94,11 @@ fn mesh(area: &Area, disc: &Disc, plot: &Plot, values: &ValueAxis, style: &Style
         area.draw(&Text::new(mark.text.clone(), (x, y + tenths(7.0)), text))?;
     }
     let (symbol, name) = plot.axis;
-    let label = format!("{}; {name} {symbol} from the normal", values.label(&plot.quantity, &plot.unit));
+    let label = format!(
+        "{}; {} {symbol} from the normal",
+        values.label(plot.quantity, &plot.unit),
+        name.to_lowercase()
+    );
     let at = (tenths(disc.centre.0), tenths(disc.centre.1 + 27.0));
     area.draw(&Text::new(label, at, placed(&letters(LABEL, style.text), HPos::Center, VPos::Top)))?;
     Ok(())
@@ -106,14 +107,13 @@ fn mesh(area: &Area, disc: &Disc, plot: &Plot, values: &ValueAxis, style: &Style
 /// The direction that stays: it mirrors the swept one at its own angle.
 fn fixed(area: &Area, disc: &Disc, plot: &Plot, style: &Style) -> Drawn {
     let Some((what, angle)) = plot.fixed else { return Ok(()) };
-    let colour: RGBColor = style.muted;
     let degrees = -angle;
-    stroke(area, vec![disc.at(0.97, degrees), disc.at(0.0, degrees)], colour, 1)?;
+    stroke(area, vec![disc.at(0.97, degrees), disc.at(0.0, degrees)], style.sample(1, 1), 1)?;
     // A source sends light to the surface, a viewer gets it.
     let (tip, back) = if what == "source" { (0.80, 0.85) } else { (0.85, 0.80) };
     let side = 1.6;
     let head = vec![disc.at(tip, degrees), disc.at(back, degrees - side), disc.at(back, degrees + side)];
-    area.draw(&Polygon::new(head, colour.filled()))?;
+    area.draw(&Polygon::new(head, style.muted.filled()))?;
     let (horizontal, at) = if degrees > 0.0 {
         (HPos::Left, disc.at(0.93, degrees + 4.0))
     } else {

@@ -46,6 +46,8 @@ const ON_LIGHT: [RGBColor; 8] = [
     RGBColor(24, 140, 190),
     RGBColor(176, 40, 70),
 ];
+/// The one that is grey.
+const NEUTRAL: usize = 5;
 const ON_DARK: [RGBColor; 8] = [
     RGBColor(96, 180, 255),
     RGBColor(255, 157, 87),
@@ -58,13 +60,16 @@ const ON_DARK: [RGBColor; 8] = [
 ];
 
 impl Style {
-    /// For so many colours of curves.
-    pub(super) fn of(theme: Theme, curves: usize) -> Self {
+    /// For so many colours of curves; the first has none of its own where it is of a sum.
+    pub(super) fn of(theme: Theme, curves: usize, has_sum: bool) -> Self {
         let (few, range) = match theme {
             Theme::Light => (ON_LIGHT, (0.0, 0.8)),
             Theme::Dark => (ON_DARK, (0.3, 1.0)),
         };
-        let curves = if curves <= few.len() { few.to_vec() } else { scale(curves, range) };
+        let mut curves = if curves <= few.len() { few.to_vec() } else { scale(curves, range) };
+        if has_sum {
+            curves.insert(0, few[NEUTRAL]);
+        }
         match theme {
             Theme::Light => Self {
                 background: RGBColor(255, 255, 255),
@@ -85,9 +90,28 @@ impl Style {
         }
     }
 
-    pub(super) fn curve(&self, colour: usize) -> RGBColor {
-        self.curves[colour % self.curves.len()]
+    /// Colour and width of a curve's line. Where there are several kinds of lines, those of the first are wide and pale, so
+    /// that the others show on them.
+    pub(super) fn line(&self, colour: usize, dash: usize, kinds: usize) -> (RGBColor, u32) {
+        let colour = self.curves[colour % self.curves.len()];
+        if kinds > 1 && dash == 0 { (between(colour, self.background, PALE), WIDE) } else { (colour, LINE) }
     }
+
+    /// The same for a line that is no curve's.
+    pub(super) fn sample(&self, dash: usize, kinds: usize) -> (RGBColor, u32) {
+        let width = if kinds > 1 && dash == 0 { WIDE } else { LINE };
+        (if width == WIDE { between(self.muted, self.background, PALE) } else { self.muted }, width)
+    }
+}
+
+/// How much of the background pale lines have.
+const PALE: f64 = 0.5;
+
+/// A colour with a share of another.
+fn between(colour: RGBColor, other: RGBColor, share: f64) -> RGBColor {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two of 0 to 255")]
+    let mix = |a: u8, b: u8| (f64::from(a) * (1.0 - share) + f64::from(b) * share).round() as u8;
+    RGBColor(mix(colour.0, other.0), mix(colour.1, other.1), mix(colour.2, other.2))
 }
 
 /// Colours in the order of a scale, which curves of many angles have.
@@ -122,22 +146,29 @@ pub(super) fn ems(text: &str) -> f64 {
         .sum()
 }
 
-/// Width of the lines of curves, tenths of a pixel.
-const THICK: u32 = 20;
+/// Width of most lines of curves, tenths of a pixel.
+pub(super) const LINE: u32 = 20;
+/// Of the lines that others are compared with.
+const WIDE: u32 = 42;
 
 /// How the kinds of lines are dashed, tenths of a pixel: length and gap.
-const DASHES: [Option<(i32, i32)>; 4] = [None, Some((90, 50)), Some((30, 40)), Some((150, 40))];
+const DASHES: [Option<(i32, i32)>; 4] = [None, Some((120, 70)), Some((40, 50)), Some((180, 50))];
 
 /// Draws a stretch of a curve, at units of the area.
-pub(super) fn stroke(area: &Area, points: Vec<(i32, i32)>, colour: RGBColor, dash: usize) -> Drawn {
+pub(super) fn stroke(
+    area: &Area,
+    points: Vec<(i32, i32)>,
+    (colour, width): (RGBColor, u32),
+    dash: usize,
+) -> Drawn {
     if let [only] = points[..] {
         area.draw(&Circle::new(only, 25, colour.filled()))?;
         return Ok(());
     }
-    let line = colour.stroke_width(THICK);
+    let line = colour.stroke_width(width);
     match DASHES[dash % DASHES.len()] {
         None => area.draw(&PathElement::new(points, line))?,
-        Some((length, gap)) => area.draw(&DashedPathElement::new(points.into_iter(), length, gap, line))?,
+        Some((length, gap)) => area.draw(&DashedPathElement::new(points, length, gap, line))?,
     }
     Ok(())
 }

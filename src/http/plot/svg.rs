@@ -1,7 +1,7 @@
 //! The document around what plotters draws: size in pixels, a title and a description, letters once for all.
 
 use super::options::{Options, Scale};
-use super::style::FONT;
+use super::style::{FONT, LINE};
 use super::ticks::{ValueAxis, short, short_power};
 use super::{Curve, Plot};
 use std::fmt::Write as _;
@@ -17,23 +17,27 @@ pub(super) fn document(drawn: &str, plot: &Plot, values: &ValueAxis, options: &O
     let _ = write!(
         text,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {}0 {}0\" role=\"img\" font-family=\"{FONT}\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
+         viewBox=\"0 0 {}0 {}0\" role=\"img\" font-family=\"{FONT}\" fill=\"none\" stroke-width=\"{LINE}\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
          <desc>{}</desc>\n",
         width,
         height,
         escaped(&plot.title),
         escaped(&description(plot, values, options)),
     );
+    // What every element says again.
     let family = format!(" font-family=\"{FONT}\"");
+    let width = format!(" stroke-width=\"{LINE}\"");
+    let short =
+        |line: &str| line.replace(" opacity=\"1\"", "").replace(" fill=\"none\"", "").replace(&width, "");
     // The first line is plotters' own beginning, the last its end.
     let mut lines = drawn.lines().skip(1).peekable();
     while let Some(line) = lines.next() {
         if line.starts_with("<text") {
             let said = lines.next().unwrap_or_default();
-            let _ = writeln!(text, "{}{}</text>", line.replace(&family, "").replace(" opacity=\"1\"", ""), lowered(said));
+            let _ = writeln!(text, "{}{}</text>", short(&line.replace(&family, "")), lowered(said));
             lines.next();
         } else {
-            let _ = writeln!(text, "{}", line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>"));
+            let _ = writeln!(text, "{}", short(line).replace(" \"/>", "\"/>"));
         }
     }
     text
@@ -47,10 +51,11 @@ fn description(plot: &Plot, values: &ValueAxis, options: &Options) -> String {
     };
     let (symbol, name) = plot.axis;
     let (from, to) = plot.ends;
-    let quantity = [plot.quantity.as_str(), plot.unit.as_str()].join(" ");
+    let quantity = [plot.quantity, plot.unit.as_str()].join(" ");
     let mut text = format!(
-        "{} ({scale} scale) over the {name} {symbol} from {from}° to {to}°. {}.",
+        "{} ({scale} scale) over the {} {symbol} from {from}° to {to}°. {}.",
         quantity.trim(),
+        name.to_lowercase(),
         plot.parameters
     );
     for curve in plot.curves.iter().take(DESCRIBED) {

@@ -2,13 +2,13 @@
 
 use super::options::{Options, Scale, Shown};
 use super::words::{direction, name, symbol};
-use super::{Columns, Curve, Plot};
+use super::{Columns, Curve, Plot, TOTAL};
 use crate::reflectance::figures::{Figure, Panel};
 use crate::reflectance::table::{self, Table};
 
 /// The components and what they are called, as the columns are.
 const COMPONENTS: [(&str, &str, &str); 4] = [
-    ("total", "log10_total", "total"),
+    ("total", "log10_total", TOTAL),
     ("diffuse_lobe", "log10_diffuse_lobe", "diffuse lobe"),
     ("specular_lobe", "log10_specular_lobe", "specular lobe"),
     ("specular_spike", "log10_specular_spike", "specular spike"),
@@ -18,11 +18,11 @@ const COMPONENTS: [(&str, &str, &str); 4] = [
 pub(crate) fn of_figure(figure: &Figure, panels: &[Panel], options: &Options) -> Plot {
     let mut plot = Plot {
         title: format!("Figure {}: {}", figure.id, figure.title),
-        parameters: format!("{} (lengths in µm)", figure.parameters),
+        parameters: parameters(figure),
         ..Plot::default()
     };
     let Some(first) = panels.first().map(|panel| &panel.table) else { return plot };
-    plot.quantity = name(first.quantity).to_owned();
+    plot.quantity = name(first.quantity);
     plot.unit = super::ticks::unit(first.unit);
     plot.axis = symbol(first.axis.name);
     plot.ends = ends(first);
@@ -38,7 +38,11 @@ pub(crate) fn of_figure(figure: &Figure, panels: &[Panel], options: &Options) ->
                 let points = panel.table.axis.values.iter().copied().zip(column.values.iter().copied());
                 let points = points.map(|(x, y)| (x, if is_log { y.log10() } else { y }));
                 // Where there is one curve, its parts have colours; otherwise the curves have, and their parts are dashed.
-                let parts = if curves > 1 { (index, if panels.len() > 1 { panel_index } else { kind }) } else { (kind, 0) };
+                let parts = if curves > 1 {
+                    (index, if panels.len() > 1 { panel_index } else { kind })
+                } else {
+                    (kind, 0)
+                };
                 plot.curves.push(Curve { colour: parts.0, dash: parts.1, points: columns.thin(points) });
             }
         }
@@ -56,6 +60,11 @@ pub(crate) fn of_figure(figure: &Figure, panels: &[Panel], options: &Options) ->
     }
     plot.without_unused();
     plot
+}
+
+fn parameters(figure: &Figure) -> String {
+    let unit = if figure.parameters.contains('λ') { "; lengths in µm" } else { "" };
+    format!("{}{unit}", figure.parameters)
 }
 
 fn ends(table: &Table) -> (f64, f64) {
@@ -77,7 +86,9 @@ fn drawn<'a>(curve: &'a table::Curve, of: usize, options: &Options) -> Vec<(usiz
     let mut columns: Vec<_> = COMPONENTS
         .iter()
         .enumerate()
-        .filter_map(|(kind, (plain, log10, _))| find(if is_log { log10 } else { plain }).map(|column| (kind, column, false)))
+        .filter_map(|(kind, (plain, log10, _))| {
+            find(if is_log { log10 } else { plain }).map(|column| (kind, column, false))
+        })
         .collect();
     if columns.is_empty() {
         // Figures 18 and 19 have one column of their own.

@@ -50,7 +50,8 @@ impl ValueAxis {
         let near = largest(&plot.curves, |point| point.0.abs() <= GRAZING);
         let is_cut = near > 0.0 && all > MUCH_LARGER * near;
         let top = if is_cut { near * HEADROOM } else { all };
-        let note = is_cut.then(|| format!("Beyond ±{GRAZING:.0}° values up to {} leave the picture.", short(all)));
+        let note =
+            is_cut.then(|| format!("Beyond ±{GRAZING:.0}° values up to {} leave the picture.", short(all)));
         let is_empty = all == f64::NEG_INFINITY;
         let top = if top > 0.0 { top } else { 1.0 };
         let magnitude = magnitude(top);
@@ -79,7 +80,15 @@ impl ValueAxis {
             .then(|| format!("Values below 10{} leave the picture.", raised(&format!("{least:.0}"))));
         let step = nice((largest - least) / MARKS, &[1.0, 2.0, 5.0]).max(1.0);
         let text = |value: f64, _| format!("10{}", raised(&format!("{value:.0}")));
-        Self { least, largest, marks: marks((least, largest), step, text), exponent: 0, note, is_empty, scale: Scale::Log10 }
+        Self {
+            least,
+            largest,
+            marks: marks((least, largest), step, text),
+            exponent: 0,
+            note,
+            is_empty,
+            scale: Scale::Log10,
+        }
     }
 
     /// Where a value stands on it.
@@ -97,7 +106,11 @@ impl ValueAxis {
 
     /// What the axis shows and in which unit.
     pub(super) fn label(&self, name: &str, unit: &str) -> String {
-        let power = if self.exponent == 0 { String::new() } else { format!("10{}", raised(&self.exponent.to_string())) };
+        let power = if self.exponent == 0 {
+            String::new()
+        } else {
+            format!("10{}", raised(&self.exponent.to_string()))
+        };
         match [power.as_str(), unit].join(" ").trim() {
             "" => name.to_owned(),
             unit => format!("{name} ({unit})"),
@@ -116,11 +129,19 @@ pub(super) fn degrees((from, to): (f64, f64), most: f64) -> Vec<Mark> {
         nice(least, &[1.0, 2.0, 5.0])
     };
     let text = |value: f64, decimals: usize| minus(&format!("{value:.decimals$}"));
-    if length > 0.0 { marks((from, to), step, text) } else { vec![Mark { at: from, text: minus(&from.to_string()) }] }
+    if length > 0.0 {
+        marks((from, to), step, text)
+    } else {
+        vec![Mark { at: from, text: minus(&from.to_string()) }]
+    }
 }
 
 fn marks((from, to): (f64, f64), step: f64, text: impl Fn(f64, usize) -> String) -> Vec<Mark> {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 17: a step of 1e-16 at 1")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most 17: a step of 1e-16 at 1"
+    )]
     let decimals = (-step.log10().floor()).clamp(0.0, 17.0) as usize;
     #[expect(clippy::cast_possible_truncation, reason = "some marks: the step is a part of the length")]
     let [first, last] = [(from / step - 1e-6).ceil() as i64, (to / step + 1e-6).floor() as i64];
@@ -262,7 +283,10 @@ mod tests {
 
     #[test]
     fn nothing_to_draw_has_axes_all_the_same() {
-        for axis in [ValueAxis::linear(&plot(&[f64::NAN])), ValueAxis::logarithmic(&plot(&[f64::NEG_INFINITY]).curves, 12)] {
+        for axis in [
+            ValueAxis::linear(&plot(&[f64::NAN])),
+            ValueAxis::logarithmic(&plot(&[f64::NEG_INFINITY]).curves, 12),
+        ] {
             assert!(axis.is_empty && axis.largest > axis.least && axis.marks.len() > 1, "{axis:?}");
         }
         let zero = ValueAxis::linear(&plot(&[0.0, 0.0]));

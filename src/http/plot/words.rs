@@ -67,10 +67,13 @@ impl Plot {
         Self {
             title: words.title,
             parameters: words.parameters,
-            quantity: name(quantity.name()).to_owned(),
+            quantity: name(quantity.name()),
             unit: unit(quantity.unit()),
             axis: symbol(sweep.axis().name()),
-            ends: (positions.first().copied().unwrap_or_default(), positions.last().copied().unwrap_or_default()),
+            ends: (
+                positions.first().copied().unwrap_or_default(),
+                positions.last().copied().unwrap_or_default(),
+            ),
             fixed: if let [at] = sweep.at() { Some((direction(fixed_name), *at)) } else { None },
             ..Self::default()
         }
@@ -98,9 +101,9 @@ pub(super) fn name(quantity: &str) -> &'static str {
 /// The symbol of an angle, and what it is.
 pub(super) fn symbol(angle: &str) -> (&'static str, &'static str) {
     match angle {
-        "theta_i_deg" => ("θ_i", "source angle"),
-        "theta_r_deg" => ("θ_r", "viewing angle"),
-        _ => ("θ′", "local angle of incidence"),
+        "theta_i_deg" => ("θ_i", "Source angle"),
+        "theta_r_deg" => ("θ_r", "Viewing angle"),
+        _ => ("θ′", "Local angle of incidence"),
     }
 }
 
@@ -173,7 +176,8 @@ fn sensor(sensor: &Sensor) -> String {
             number(footprint.get())
         ),
         Sensor::Camera(CameraSensor { pixel_area, distance, focal_length, aperture, off_axis }) => {
-            let [area, z, f, d] = [pixel_area.get(), distance.get(), focal_length.get(), aperture.get()].map(number);
+            let [area, z, f, d] =
+                [pixel_area.get(), distance.get(), focal_length.get(), aperture.get()].map(number);
             let gamma = number(off_axis.get());
             format!("camera: pixel {area} µm², z = {z} µm, f = {f} µm, d = {d} µm, γ = {gamma}°")
         }
