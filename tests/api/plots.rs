@@ -16,7 +16,10 @@ fn get(server: &Server, link: &str, accept: &str) -> Response {
 
 fn svg(server: &Server, link: &str) -> String {
     let response = get(server, link, SVG);
-    assert_eq!((response.status().as_u16(), &response.headers()["content-type"]), (200, &SVG.parse().unwrap()));
+    assert_eq!(
+        (response.status().as_u16(), &response.headers()["content-type"]),
+        (200, &SVG.parse().unwrap())
+    );
     response.text().unwrap()
 }
 
@@ -40,14 +43,18 @@ fn numbers(picture: &Document) -> Vec<[f64; 3]> {
     let texts = picture.descendants().filter(|node| node.has_tag_name("text"));
     let number = |text: String| {
         let power = text.strip_prefix("10").map(|digits| {
-            let digits = digits.chars().map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c).map_or('-', |d| b"0123456789"[d] as char));
+            let digits = digits
+                .chars()
+                .map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c).map_or('-', |d| b"0123456789"[d] as char));
             digits.collect::<String>()
         });
         let whole = text.replace('−', "-").parse::<f64>();
         whole.or_else(|_| power.unwrap_or_default().parse())
     };
     let place = |node: &Node, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
-    texts.filter_map(|node| Some([number(text_of(node)).ok()?, place(&node, "x"), place(&node, "y")])).collect()
+    texts
+        .filter_map(|node| Some([number(text_of(node)).ok()?, place(&node, "x"), place(&node, "y")]))
+        .collect()
 }
 
 /// The lines of curves: colour and corners, in tenths of a pixel.
@@ -69,7 +76,8 @@ fn curves(picture: &Document) -> Vec<(String, Vec<[f64; 2]>)> {
 /// Where a value stands, of two marks of an axis: `axis` 1 or 2, of marks that share the other coordinate.
 fn ruler(marks: &[[f64; 3]], axis: usize) -> impl Fn(f64) -> f64 {
     let other = 3 - axis;
-    let group = |mark: &[f64; 3]| marks.iter().filter(|m| m[other] == mark[other]).copied().collect::<Vec<_>>();
+    let group =
+        |mark: &[f64; 3]| marks.iter().filter(|m| m[other] == mark[other]).copied().collect::<Vec<_>>();
     let longest = marks.iter().map(group).max_by_key(Vec::len).unwrap();
     let (first, last) = (longest[0], longest[longest.len() - 1]);
     let slope = (last[axis] - first[axis]) / (last[0] - first[0]);
@@ -94,12 +102,17 @@ fn every_figure_is_drawn_and_says_what_it_shows() {
         let parameters = figure["parameters"].as_str().unwrap();
         assert!(description.contains(parameters) && description.contains("largest"), "{description}");
         // The parameters are in the picture too, whatever lines they take.
-        let shown: String =
-            picture.descendants().filter(|node| node.has_tag_name("text")).map(text_of).collect::<Vec<_>>().join(" ");
+        let shown: String = picture
+            .descendants()
+            .filter(|node| node.has_tag_name("text"))
+            .map(text_of)
+            .collect::<Vec<_>>()
+            .join(" ");
         assert!(shown.contains(&parameters.replace('_', "")), "{href}: {shown}");
         for node in root.descendants().filter(Node::is_element) {
             let name = node.tag_name().name();
-            let known = ["svg", "title", "desc", "text", "tspan", "rect", "line", "polyline", "polygon", "circle"];
+            let known =
+                ["svg", "title", "desc", "text", "tspan", "rect", "line", "polyline", "polygon", "circle"];
             assert!(known.contains(&name), "{name}");
             assert!(node.attributes().all(|a| !a.name().starts_with("on") && a.name() != "href"), "{node:?}");
         }
@@ -121,10 +134,15 @@ fn curves_are_where_their_numbers_are() {
         let [(_, corners)] = &curves(&picture)[..] else { panic!("one curve") };
         let values = diagram["series"][0][column].as_array().unwrap();
         assert_eq!(corners.len(), values.len());
-        for ((corner, value), angle) in corners.iter().zip(values).zip(diagram["axis"]["values"].as_array().unwrap()) {
+        for ((corner, value), angle) in
+            corners.iter().zip(values).zip(diagram["axis"]["values"].as_array().unwrap())
+        {
             let expected = [x(angle.as_f64().unwrap()), y(value.as_f64().unwrap())];
             // Half a pixel.
-            assert!((corner[0] - expected[0]).abs() < 5.0 && (corner[1] - expected[1]).abs() < 5.0, "{corner:?} {expected:?}");
+            assert!(
+                (corner[0] - expected[0]).abs() < 5.0 && (corner[1] - expected[1]).abs() < 5.0,
+                "{corner:?} {expected:?}"
+            );
         }
     }
 }
@@ -141,25 +159,34 @@ fn a_polar_curve_is_as_far_from_the_origin_as_its_values_are_large() {
         .descendants()
         .filter(|node| node.has_tag_name("polyline"))
         .filter_map(|node| node.attribute("points"))
-        .map(|points| points.split_whitespace().map(|pair| pair.split_once(',').unwrap().1).collect::<Vec<_>>())
+        .map(|points| {
+            points.split_whitespace().map(|pair| pair.split_once(',').unwrap().1).collect::<Vec<_>>()
+        })
         .find(|heights| heights.len() == 2 && heights[0] == heights[1])
         .unwrap()[0]
         .parse::<f64>()
         .unwrap();
     let [(_, corners)] = &curves(&picture)[..] else { panic!("one curve") };
     let values = diagram["series"][0]["total"].as_array().unwrap();
-    for ((corner, value), angle) in corners.iter().zip(values).zip(diagram["axis"]["values"].as_array().unwrap()) {
+    for ((corner, value), angle) in
+        corners.iter().zip(values).zip(diagram["axis"]["values"].as_array().unwrap())
+    {
         let (sin, cos) = angle.as_f64().unwrap().to_radians().sin_cos();
         let radius = x(value.as_f64().unwrap()) - x(0.0);
         let expected = [x(0.0) + radius * sin, surface - radius * cos];
-        assert!((corner[0] - expected[0]).abs() < 5.0 && (corner[1] - expected[1]).abs() < 5.0, "{corner:?} {expected:?}");
+        assert!(
+            (corner[0] - expected[0]).abs() < 5.0 && (corner[1] - expected[1]).abs() < 5.0,
+            "{corner:?} {expected:?}"
+        );
     }
 }
 
 #[test]
 fn a_picture_is_drawn_as_it_is_asked_for() {
     let server = Server::start();
-    for (query, width, height) in [("width_px=300&height_px=300", 300, 300), ("width_px=2400&height_px=1800", 2400, 1800)] {
+    for (query, width, height) in
+        [("width_px=300&height_px=300", 300, 300), ("width_px=2400&height_px=1800", 2400, 1800)]
+    {
         for form in ["cartesian", "polar"] {
             let link = format!("{LINK}&form={form}&{query}");
             assert_eq!(size(&get(&server, &link, PNG).bytes().unwrap()), (width, height));
@@ -174,8 +201,12 @@ fn a_picture_is_drawn_as_it_is_asked_for() {
         first.unwrap().attribute("fill").unwrap().to_owned()
     };
     assert_ne!(background(&svg(&server, LINK)), background(&svg(&server, &format!("{LINK}&theme=dark"))));
-    let lines = |query: &str| curves(&Document::parse(&svg(&server, &format!("{LINK}{query}"))).unwrap()).len();
-    assert_eq!([lines(""), lines("&curves=total"), lines("&curves=components"), lines("&curves=all")], [3, 1, 2, 3]);
+    let lines =
+        |query: &str| curves(&Document::parse(&svg(&server, &format!("{LINK}{query}"))).unwrap()).len();
+    assert_eq!(
+        [lines(""), lines("&curves=total"), lines("&curves=components"), lines("&curves=all")],
+        [3, 1, 2, 3]
+    );
     // Of several curves the totals, unless more is asked for; their parts are told apart by dashes.
     assert_eq!(lines("&at_deg=10&at_deg=20"), 3);
     assert!(svg(&server, &format!("{LINK}&at_deg=10&curves=all")).contains("diffuse lobe"));
@@ -211,7 +242,10 @@ fn every_wish_that_cannot_be_drawn_is_named() {
     let found: Vec<String> = errors(&document).into_iter().map(|(pointer, _)| pointer).collect();
     assert_eq!(found, ["/plot/colour", "/plot/theme", "/plot/width_px"]);
     let limits: Value = server.get("/v1/limits").json().unwrap();
-    let limit = |name: &str| limits["limits"].as_array().unwrap().iter().find(|limit| limit["name"] == name).unwrap()["value"].clone();
+    let limit = |name: &str| {
+        limits["limits"].as_array().unwrap().iter().find(|limit| limit["name"] == name).unwrap()["value"]
+            .clone()
+    };
     assert_eq!([limit("picture_pixels"), limit("picture_series")], [json!(2400), json!(400)]);
 }
 
@@ -232,17 +266,24 @@ fn a_browser_that_wants_an_image_gets_one() {
 #[test]
 fn a_picture_is_kept_like_every_answer_to_a_link() {
     let server = Server::start();
-    let tag = |link: &str, accept: &str| get(&server, link, accept).headers()["etag"].to_str().unwrap().to_owned();
+    let tag =
+        |link: &str, accept: &str| get(&server, link, accept).headers()["etag"].to_str().unwrap().to_owned();
     for link in [LINK, "/v1/figures/22?log10=false"] {
         let [plain, dark] = ["", "&theme=dark"].map(|query| format!("{link}{query}"));
         assert_ne!(tag(&plain, SVG), tag(&dark, SVG));
         assert_ne!(tag(&plain, SVG), tag(&plain, PNG));
         // What is the default anyway changes nothing, nor does what only pictures read change numbers.
-        assert_eq!(tag(&plain, SVG), tag(&format!("{link}&theme=light&width_px=720&scale=linear&decades=5"), SVG));
+        assert_eq!(
+            tag(&plain, SVG),
+            tag(&format!("{link}&theme=light&width_px=720&scale=linear&decades=5"), SVG)
+        );
         assert_eq!(tag(&plain, "text/csv"), tag(&dark, "text/csv"));
         let first = get(&server, &plain, PNG);
         assert!(first.headers()["vary"].to_str().unwrap().contains("accept"));
-        let again = server.request("GET", &plain).header("accept", PNG).header("if-none-match", &first.headers()["etag"]);
+        let again = server
+            .request("GET", &plain)
+            .header("accept", PNG)
+            .header("if-none-match", &first.headers()["etag"]);
         assert_eq!(again.send().unwrap().status(), 304);
         let head = server.request("HEAD", &plain).header("accept", PNG).send().unwrap();
         assert_eq!((head.status().as_u16(), &head.headers()["etag"]), (200, &first.headers()["etag"]));
@@ -254,7 +295,8 @@ fn a_picture_is_kept_like_every_answer_to_a_link() {
 fn what_has_no_picture_has_axes() {
     let server = Server::start();
     let zero = "/v1/diagrams?model=lambertian&diffuse_albedo=0&sweep=theta_r_deg&at_deg=10";
-    let grazing = "/v1/diagrams?model=torrance_sparrow&facet_slope_deg=12&shadowing=none&sweep=theta_r_deg&at_deg=40";
+    let grazing =
+        "/v1/diagrams?model=torrance_sparrow&facet_slope_deg=12&shadowing=none&sweep=theta_r_deg&at_deg=40";
     for form in ["cartesian", "polar"] {
         // Not a number at all.
         let text = svg(&server, &format!("{grazing}&from_deg=90&to_deg=90&points=1&form={form}"));
@@ -312,8 +354,11 @@ fn ten_million_rows_make_a_small_picture_with_every_peak() {
 #[test]
 fn many_curves_are_drawn_and_too_many_are_refused() {
     let server = Server::start();
-    let angles = |count: usize| (0..count).map(|index| (0.5 * index as f64).to_string()).collect::<Vec<_>>().join(",");
-    let wavelengths = |count: usize| (0..count).map(|index| (0.4 + 0.01 * index as f64).to_string()).collect::<Vec<_>>().join(",");
+    let angles =
+        |count: usize| (0..count).map(|index| (0.5 * index as f64).to_string()).collect::<Vec<_>>().join(",");
+    let wavelengths = |count: usize| {
+        (0..count).map(|index| (0.4 + 0.01 * index as f64).to_string()).collect::<Vec<_>>().join(",")
+    };
     let link = |angles_: usize, waves: usize| {
         format!(
             "/v1/diagrams?model=beckmann_spizzichino&rms_height_um=0.2&correlation_length_um=4&sweep=theta_r_deg&from_deg=-80&to_deg=80\

@@ -6,6 +6,7 @@ use crate::http::api::light::Light;
 use crate::reflectance::diagram::{Sweep, SweepAxis};
 use crate::reflectance::evaluate::Quantity;
 use crate::reflectance::fresnel::{Medium, Polarization};
+use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::quantity::Wavelength;
 use crate::reflectance::scene::{CameraSensor, Component, Model, Scene, Sensor};
@@ -139,10 +140,14 @@ fn medium(medium: Medium, light: &Light) -> Option<String> {
         }
     };
     let Medium::Index(index) = medium else { return None };
-    let index = format!("n = {}, k = {}", number(index.n.get()), number(index.k.get()));
+    let (n, k) = (index.n.get(), index.k.get());
     Some(match lookup {
-        Some(lookup) => format!("{} ({}): {index}", lookup.material.name, lookup.source.id),
-        None => index,
+        // What was looked up between two samples has more digits than are known.
+        Some(Lookup { material, source, .. }) => {
+            let (n, k) = (super::ticks::short(n), super::ticks::short(k));
+            format!("{} ({}): n = {n}, k = {k}", material.name, source.id)
+        }
+        None => format!("n = {}, k = {}", number(n), number(k)),
     })
 }
 
