@@ -31,7 +31,7 @@ fn size(png: &[u8]) -> (u32, u32) {
 }
 
 fn text_of(node: Node) -> String {
-    node.descendants().filter(|part| part.is_text()).filter_map(|part| part.text()).collect()
+    node.descendants().filter(Node::is_text).filter_map(|part| part.text()).collect()
 }
 
 fn said(picture: &Document, name: &str) -> String {
@@ -74,7 +74,7 @@ fn curves(picture: &Document) -> Vec<(String, Vec<[f64; 2]>)> {
 }
 
 /// Where a value stands, of two marks of an axis: `axis` 1 or 2, of marks that share the other coordinate.
-fn ruler(marks: &[[f64; 3]], axis: usize) -> impl Fn(f64) -> f64 {
+fn ruler(marks: &[[f64; 3]], axis: usize) -> impl Fn(f64) -> f64 + use<> {
     let other = 3 - axis;
     let group =
         |mark: &[f64; 3]| marks.iter().filter(|m| m[other] == mark[other]).copied().collect::<Vec<_>>();

@@ -1,7 +1,7 @@
 //! `docs/figures.md`: every figure as the service draws it. `UPDATE_FIGURES=1 cargo test --test claims gallery` draws the
 //! pictures anew.
 
-use crate::service::drawn;
+use crate::service::{ANGLES, Over, drawn, facets, figure, peak};
 use reflectance::reflectance::figures::FIGURES;
 use std::collections::BTreeSet;
 use std::fs;
@@ -70,6 +70,48 @@ fn the_gallery_shows_what_the_service_draws() {
         }
     }
     assert!(stale.is_empty(), "out of date (UPDATE_FIGURES=1 draws them anew): {stale:?}");
+}
+
+/// "a, b and c"
+fn listed(parts: &[String]) -> String {
+    match parts {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => parts.concat(),
+    }
+}
+
+/// What the page says below the picture of a figure.
+fn section<'a>(page: &'a str, id: &str) -> &'a str {
+    let (_, behind) = page.split_once(&format!("\n### {id}\n")).expect("a section");
+    behind.split_once("\n#").map_or(behind, |(section, _)| section)
+}
+
+#[test]
+fn what_the_gallery_says_of_facet_lobes_is_so() {
+    let docs = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let page = fs::read_to_string(docs.join("figures.md")).expect("docs/figures.md");
+    for (id, sigma_alpha) in [("20c", 0.5), ("20d", 1.0), ("20e", 2.0), ("20f", 3.0)] {
+        let diagram = figure(id).remove(0);
+        let off = ANGLES.map(|at| {
+            let curve = diagram.curve(at);
+            let specular = curve.specular("total");
+            let deviation = |(angle, value): (&f64, f64)| {
+                let gaussian = (-0.5 * ((angle - at) / (2.0 * sigma_alpha)).powi(2)).exp();
+                (value / specular - gaussian).abs()
+            };
+            let points =
+                diagram.axis.iter().zip(curve.column("total")).filter(|(angle, _)| angle.abs() <= 80.0);
+            format!("{:.1}", 100.0 * points.map(deviation).fold(0.0, f64::max))
+        });
+        let said = format!("{} %", listed(&off));
+        assert!(section(&page, id).contains(&said), "{id}: {said}");
+    }
+    for (id, sigma_alpha) in [("21a", 5.0), ("21b", 7.0), ("21c", 9.0), ("21e", 15.0), ("21f", 17.0)] {
+        let peaks =
+            ANGLES.map(|at| peak(&facets(sigma_alpha), Over::Viewer, at).map(|peak| format!("{peak:.1}°")));
+        let said = listed(&peaks.into_iter().flatten().collect::<Vec<_>>());
+        assert!(section(&page, id).contains(&said), "{id}: {said}");
+    }
 }
 
 #[test]

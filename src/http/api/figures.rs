@@ -1,6 +1,7 @@
 //! `GET /v1/figures` and `GET /v1/figures/{id}`: the report's diagrams with their captions' parameters.
 
 use super::responses::{GetProblems, list};
+use crate::http::app::App;
 use crate::http::compute;
 use crate::http::edge::Deadline;
 use crate::http::encode::rows::{Binary, RowFormat};
@@ -13,8 +14,8 @@ use crate::http::negotiate::{Drawable, Format, JsonOnly};
 use crate::http::plot::{self, Form, Options, Picture, PlotWire, Scale};
 use crate::http::problem::{Kind, Problem};
 use crate::reflectance::figures::{FIGURES, Figure, find};
-use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
 use axum::http::header;
 use axum::response::{IntoResponse as _, Response};
 use serde::Serialize;
@@ -131,6 +132,7 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
     )
 )]
 pub(crate) async fn figure(
+    State(app): State<App>,
     Drawable(format): Drawable,
     known: Known,
     deadline: Deadline,
@@ -141,6 +143,8 @@ pub(crate) async fn figure(
     let figure = id.ok().and_then(|Path(id)| find(&id)).ok_or_else(no_figure)?;
     let answer = Answer::of(format, figure, &query);
     linked(&known, &("/v1/figures", figure.id, format.media_type(), answer), async {
+        // Pixels take memory: no more are drawn at a time than there is large work.
+        let _turn = if let Answer::Drawn(..) = answer { Some(app.admission().turn().await?) } else { None };
         // Every figure has hundreds of directions at least: none is worth holding up connections for.
         let body = compute::blocking(deadline, move || make(figure, answer)).await??;
         Ok(([(header::CONTENT_TYPE, format.content_type())], body).into_response())

@@ -27,3 +27,37 @@ fn broken(error: &dyn std::fmt::Display) -> Problem {
     tracing::error!(%error, "a picture could not be made");
     Problem::internal()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::of;
+
+    /// What the pictures may write besides ASCII.
+    const SYMBOLS: &str = "θσαλρφγµ°′−⁰¹²³⁴⁵⁶⁷⁸⁹⁻×·…±²—–";
+
+    fn picture(letter: &str, weight: &str) -> Vec<u8> {
+        let text =
+            format!("<text x=\"5\" y=\"30\" font-size=\"30\" font-weight=\"{weight}\">{letter}</text>");
+        let font = crate::http::plot::style::FONT;
+        of(&format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"40\" font-family=\"{font}\" fill=\"#000\">{text}</svg>"
+        ))
+        .unwrap()
+    }
+
+    #[test]
+    fn every_letter_has_its_own_shape() {
+        let unknown = picture("\u{e000}", "normal");
+        for letter in SYMBOLS.chars().chain((b'!'..=b'~').map(char::from)) {
+            let letter = match letter {
+                '<' => "&lt;".to_owned(),
+                '&' => "&amp;".to_owned(),
+                other => other.to_string(),
+            };
+            let drawn = picture(&letter, "normal");
+            assert_ne!(drawn, picture(" ", "normal"), "{letter} is not drawn");
+            assert_ne!(drawn, unknown, "{letter} is a box");
+            assert_ne!(drawn, picture(&letter, "bold"), "{letter} is never bold");
+        }
+    }
+}

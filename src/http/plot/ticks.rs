@@ -1,6 +1,6 @@
 //! What stands at an axis: where it begins and ends, its marks, and how numbers are written.
 
-use super::options::{Options, Scale};
+use super::options::{Form, Options, Scale};
 use super::thin::Point;
 use super::{Curve, Plot};
 use std::fmt::Write as _;
@@ -41,7 +41,7 @@ impl ValueAxis {
     pub(super) fn new(plot: &Plot, options: &Options) -> Self {
         match options.scale {
             Scale::Linear => Self::linear(plot),
-            Scale::Log10 => Self::logarithmic(&plot.curves, options.decades),
+            Scale::Log10 => Self::logarithmic(&plot.curves, options.decades, options.form),
         }
     }
 
@@ -70,14 +70,18 @@ impl ValueAxis {
         }
     }
 
-    fn logarithmic(curves: &[Curve], decades: usize) -> Self {
+    fn logarithmic(curves: &[Curve], decades: usize, form: Form) -> Self {
         let top = largest(curves, |_| true);
         let is_empty = top == f64::NEG_INFINITY;
         let (largest, bottom) = if is_empty { (0.0, -1.0) } else { (top.ceil(), least(curves).floor()) };
         // A curve of one value at a power of ten has room below it.
         let least = bottom.max(largest - decades as f64).min(largest - 1.0);
+        let where_they_are = match form {
+            Form::Cartesian => "leave the picture",
+            Form::Polar => "are at the origin",
+        };
         let note = (!is_empty && bottom < least)
-            .then(|| format!("Values below 10{} leave the picture.", raised(&format!("{least:.0}"))));
+            .then(|| format!("Values below 10{} {where_they_are}.", raised(&format!("{least:.0}"))));
         let step = nice((largest - least) / MARKS, &[1.0, 2.0, 5.0]).max(1.0);
         let text = |value: f64, _| format!("10{}", raised(&format!("{value:.0}")));
         Self {
@@ -231,7 +235,7 @@ pub(super) fn unit(ascii: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Curve, ValueAxis, degrees, minus, short, short_power, unit};
+    use super::{Curve, Form, ValueAxis, degrees, minus, short, short_power, unit};
     use crate::http::plot::Plot;
 
     fn plot(values: &[f64]) -> Plot {
@@ -270,14 +274,14 @@ mod tests {
 
     #[test]
     fn a_logarithmic_axis_shows_whole_decades() {
-        let axis = ValueAxis::logarithmic(&plot(&[-2.5, 0.3]).curves, 12);
+        let axis = ValueAxis::logarithmic(&plot(&[-2.5, 0.3]).curves, 12, Form::Cartesian);
         assert_eq!(texts(&axis), ["10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]);
-        let axis = ValueAxis::logarithmic(&plot(&[-36061.0, 3.0]).curves, 12);
+        let axis = ValueAxis::logarithmic(&plot(&[-36061.0, 3.0]).curves, 12, Form::Cartesian);
         assert_eq!((axis.least, axis.largest), (-9.0, 3.0));
         assert_eq!(axis.note.as_deref(), Some("Values below 10⁻⁹ leave the picture."));
-        let axis = ValueAxis::logarithmic(&plot(&[-36061.0, 3.0]).curves, 100_000);
+        let axis = ValueAxis::logarithmic(&plot(&[-36061.0, 3.0]).curves, 100_000, Form::Cartesian);
         assert!(axis.marks.len() < 10 && axis.note.is_none());
-        let axis = ValueAxis::logarithmic(&plot(&[2.0, 2.0]).curves, 12);
+        let axis = ValueAxis::logarithmic(&plot(&[2.0, 2.0]).curves, 12, Form::Cartesian);
         assert_eq!((axis.least, axis.largest), (1.0, 2.0));
     }
 
@@ -285,7 +289,7 @@ mod tests {
     fn nothing_to_draw_has_axes_all_the_same() {
         for axis in [
             ValueAxis::linear(&plot(&[f64::NAN])),
-            ValueAxis::logarithmic(&plot(&[f64::NEG_INFINITY]).curves, 12),
+            ValueAxis::logarithmic(&plot(&[f64::NEG_INFINITY]).curves, 12, Form::Cartesian),
         ] {
             assert!(axis.is_empty && axis.largest > axis.least && axis.marks.len() > 1, "{axis:?}");
         }
