@@ -16,6 +16,7 @@ mod in_force;
 mod limits;
 mod materials;
 mod plan;
+mod plots;
 mod properties;
 mod protocol;
 mod radiance;
