@@ -27,24 +27,29 @@ pub(super) fn beckmann_spizzichino(
         },
         illumination: light(Some(Wavelength::new(lambda)?))?,
         sensor: Some(sensor()?),
+        receiver: None,
         components: Components::Named(components.to_vec()),
         accuracy: Accuracy { relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?, method },
     }))
 }
 
-/// A Torrance-Sparrow lobe with c·a_f = 1, F = 1 and G = 1.
-pub(super) fn torrance_sparrow(facet_slope: FacetSlope) -> Result<Scene, OutOfBounds> {
+/// A Torrance-Sparrow lobe with F = 1 and G = 1; without a c·a_f its facets tile the mean plane.
+pub(super) fn torrance_sparrow(
+    facet_slope: FacetSlope,
+    specular_scale: Option<SpecularScale>,
+) -> Result<Scene, OutOfBounds> {
     Ok(Scene::preset(SceneParameters {
         model: Model::TorranceSparrow,
         surface: Surface {
             facet_slope: Some(facet_slope),
-            specular_scale: Some(SpecularScale::new(1.0)?),
+            specular_scale,
             shadowing: Some(Shadowing::None),
             fresnel_average: None,
             ..bare()?
         },
         illumination: light(None)?,
         sensor: None,
+        receiver: None,
         components: Components::Named(vec![Component::SpecularLobe]),
         accuracy: Accuracy { relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?, method: Method::Auto },
     }))
@@ -100,6 +105,7 @@ pub(super) mod components_of_section_5 {
                 ..bare()?
             },
             illumination: light(Some(Wavelength::new(0.5)?))?,
+            receiver: None,
             sensor: Some(Sensor::Patch {
                 footprint: Area::new(16.0)?,
                 half_x: Length::new(2.0)?,

@@ -13,8 +13,11 @@ use crate::http::input::object::{WireObject, prose};
 use crate::http::input::query::{MOST_PARAMETERS, NoQuery};
 use crate::http::link::{Known, configured};
 use crate::http::negotiate::{Format, JsonOnly};
+use crate::http::plot::{MOST_CURVES, MOST_PIXELS};
 use crate::http::problem::{Kind, Problem};
-use crate::reflectance::bounds::{MAX_AVERAGED, MAX_CURVES, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS};
+use crate::reflectance::bounds::{
+    MAX_AVERAGED, MAX_CURVES, MAX_RECEIVED, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS,
+};
 use axum::extract::State;
 use axum::response::Response;
 use clap::CommandFactory as _;
@@ -265,10 +268,25 @@ fn list(limits: &Limits) -> LimitList {
         ),
         Limit::fixed("fixed_angles", MAX_CURVES, "angles", "Most fixed angles of one diagram", invalid),
         Limit::fixed(
+            "picture_series",
+            MOST_CURVES,
+            "series",
+            "Most fixed angles times wavelengths of one diagram that is drawn",
+            invalid,
+        ),
+        Limit::fixed("picture_pixels", MOST_PIXELS, "pixels", "Most width and height of a picture", invalid),
+        Limit::fixed(
             "averaged_sources",
             MAX_AVERAGED,
             "angles",
             "Most zeniths of the source, over all curves, with fresnel_average slope_average",
+            invalid,
+        ),
+        Limit::fixed(
+            "received_rows",
+            MAX_RECEIVED,
+            "rows",
+            "Most rows, over all curves and wavelengths, with receiver_half_angle_deg",
             invalid,
         ),
         Limit::fixed(
