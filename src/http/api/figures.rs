@@ -1,5 +1,6 @@
 //! `GET /v1/figures` and `GET /v1/figures/{id}`: the report's diagrams with their captions' parameters.
 
+use super::figure_links::links;
 use super::responses::{GetProblems, list};
 use crate::http::compute;
 use crate::http::edge::Deadline;
@@ -12,6 +13,7 @@ use crate::http::link::{Known, linked};
 use crate::http::negotiate::{Format, JsonOnly, Tabular};
 use crate::http::problem::{Kind, Problem};
 use crate::reflectance::figures::{FIGURES, Figure, find};
+use crate::reflectance::quantity::OutOfBounds;
 use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
 use axum::http::header;
@@ -34,6 +36,9 @@ pub(crate) struct FigureSummary {
     /// Where it is.
     #[schema(example = "/v1/figures/13a")]
     href: String,
+    /// The diagrams that it is made of, as links: from there every parameter can be changed. None for figures 18 and 19,
+    /// which plot a formula.
+    diagrams: Vec<String>,
 }
 
 /// The figures that the report computes.
@@ -96,13 +101,16 @@ impl IntoResponses for NoFigure {
 )]
 pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Response, Problem> {
     linked(&known, &"/v1/figures", async {
-        let figures = FIGURES.iter().map(|figure| FigureSummary {
-            id: figure.id,
-            title: figure.title,
-            parameters: figure.parameters,
-            href: format!("/v1/figures/{}", figure.id),
+        let figures = FIGURES.iter().map(|figure| {
+            Ok(FigureSummary {
+                id: figure.id,
+                title: figure.title,
+                parameters: figure.parameters,
+                href: format!("/v1/figures/{}", figure.id),
+                diagrams: links(figure).map_err(|error| broken(figure, error))?,
+            })
         });
-        json::response(&FigureList { figures: figures.collect() }, 16 << 10)
+        json::response(&FigureList { figures: figures.collect::<Result<_, Problem>>()? }, 32 << 10)
     })
     .await
 }
@@ -148,11 +156,13 @@ fn no_figure() -> Problem {
     Problem::new(Kind::NotFound, format!("The report has no such figure. It has: {ids}"))
 }
 
+fn broken(figure: &Figure, error: OutOfBounds) -> Problem {
+    tracing::error!(%error, figure = figure.id, "a preset is out of range");
+    Problem::internal()
+}
+
 fn draw(figure: &'static Figure, format: Format, log10: bool) -> Result<Vec<u8>, Problem> {
-    let panels = figure.evaluate(log10).map_err(|error| {
-        tracing::error!(%error, figure = figure.id, "a preset is out of range");
-        Problem::internal()
-    })?;
+    let panels = figure.evaluate(log10).map_err(|error| broken(figure, error))?;
     if let Some(rows) = format.row_format() {
         let tables: Vec<_> = panels.into_iter().map(|panel| panel.table).collect();
         return flat::write(rows, &tables, true);
