@@ -23,7 +23,10 @@ test("the first picture is the service's answer", async () => {
   const answer = await ask(await request(page));
   const [series] = answer.series;
   const lines = await plotted(page);
-  assert.deepEqual(lines.map(({ name }) => name), ["specular lobe", "specular spike", "total"]);
+  assert.deepEqual(
+    lines.map(({ name }) => name),
+    ["specular lobe", "specular spike", "total"],
+  );
   for (const [at, key] of ["specular_lobe", "specular_spike", "total"].entries()) {
     assert.deepEqual(lines[at].y, series[key]);
     assert.deepEqual(lines[at].x, answer.axis.values);
@@ -44,7 +47,10 @@ test("every field of a diagram has a control", async () => {
   const document = await ask(`${service.url}/openapi.json`);
   const names = document.paths["/v1/diagrams"].get.parameters.map(({ name }) => name);
   const controls = await page.$$eval("[data-field]", (fields) => fields.map((field) => field.dataset.field));
-  assert.deepEqual(names.filter((name) => !controls.includes(name)), []);
+  assert.deepEqual(
+    names.filter((name) => !controls.includes(name)),
+    [],
+  );
   await close();
 });
 
@@ -84,16 +90,33 @@ test("a scene may be changed in every way", async () => {
   await fill(page, "wavelength_um", "0.5,0.6");
   await drawing(page, () => page.selectOption("#field-quantity", "brdf"));
   const link = new URL(await request(page));
-  const expected = { material: "Au", source: "McPeak", parallel: "0.25", perpendicular: "0.75", pixel_area_um2: "25", sweep: "theta_i_deg", at_deg: "10,-20", wavelength_um: "0.5,0.6", quantity: "brdf" };
+  const expected = {
+    material: "Au",
+    source: "McPeak",
+    parallel: "0.25",
+    perpendicular: "0.75",
+    pixel_area_um2: "25",
+    sweep: "theta_i_deg",
+    at_deg: "10,-20",
+    wavelength_um: "0.5,0.6",
+    quantity: "brdf",
+  };
   for (const [name, value] of Object.entries(expected)) assert.equal(link.searchParams.get(name), value, name);
   const answer = await ask(link);
   const totals = (await plotted(page)).filter(({ name }) => !/lobe|spike/.test(name));
-  assert.deepEqual(totals.map(({ y }) => y), answer.series.map((series) => series.total));
+  assert.deepEqual(
+    totals.map(({ y }) => y),
+    answer.series.map((series) => series.total),
+  );
   assert.match(await page.locator("#findings").textContent(), /Au \(McPeak\): n = /);
   await close();
 });
 
-for (const [id, polar] of [["13a", false], ["23c", false], ["24", true]]) {
+for (const [id, polar] of [
+  ["13a", false],
+  ["23c", false],
+  ["24", true],
+]) {
   test(`figure ${id} is the service's, and goes on as a scene`, async () => {
     const { page, close } = await open(browser, service.url);
     await page.waitForSelector(`#preset option[value="figure:${id}"]`, { state: "attached" });
@@ -101,14 +124,20 @@ for (const [id, polar] of [["13a", false], ["23c", false], ["24", true]]) {
     const figure = await ask(`${service.url}/v1/figures/${id}`);
     const values = (series) => (polar ? series.map(({ r }) => r) : series.map(({ y }) => y));
     const totals = (await plotted(page)).filter(({ name }) => !/lobe$|spike$/.test(name));
-    assert.deepEqual(values(totals), figure.panels.flatMap(({ diagram }) => diagram.series.map((series) => series.total)));
+    assert.deepEqual(
+      values(totals),
+      figure.panels.flatMap(({ diagram }) => diagram.series.map((series) => series.total)),
+    );
     assert.match(await page.locator("#stage-title").textContent(), new RegExp(`^Figure ${id}: `));
     // The controls hold the figure's scene: the diagram of the first panel is the figure's.
     await drawing(page, () => page.selectOption("#preset", ""));
     const link = await request(page);
     assert.ok(link.includes("/v1/diagrams?"), link);
     const again = (await plotted(page)).filter(({ name }) => !/lobe$|spike$/.test(name));
-    assert.deepEqual(values(again), figure.panels[0].diagram.series.map((series) => series.total));
+    assert.deepEqual(
+      values(again),
+      figure.panels[0].diagram.series.map((series) => series.total),
+    );
     await close();
   });
 }
@@ -116,7 +145,7 @@ for (const [id, polar] of [["13a", false], ["23c", false], ["24", true]]) {
 test("a shared link shows the same", async () => {
   const { page, close } = await open(browser, service.url);
   await fill(page, "correlation_length_um", "4");
-  await drawing(page, () => page.check('input[name="scale"][value="log"]', { force: true }));
+  await drawing(page, () => page.check('input[name="scale"][value="log10"]', { force: true }));
   const [url, lines] = [page.url(), await plotted(page)];
   const other = await open(browser, service.url, { hash: url.split("#")[1] });
   assert.deepEqual(await plotted(other.page), lines);
@@ -126,7 +155,8 @@ test("a shared link shows the same", async () => {
 });
 
 test("values below every float are plotted by their logarithm", async () => {
-  const hash = "model=beckmann_spizzichino&rms_height_um=0.001&correlation_length_um=0.01&wavelength_um=0.0001&footprint_um2=400&patch_half_x_um=10&patch_half_y_um=10&components=specular_spike&sweep=theta_i_deg&from_deg=0&to_deg=80&step_deg=20&at_deg=60&scale=log";
+  const hash =
+    "model=beckmann_spizzichino&rms_height_um=0.001&correlation_length_um=0.01&wavelength_um=0.0001&footprint_um2=400&patch_half_x_um=10&patch_half_y_um=10&components=specular_spike&sweep=theta_i_deg&from_deg=0&to_deg=80&step_deg=20&at_deg=60&scale=log10";
   const { page, close } = await open(browser, service.url, { hash });
   const [series] = (await ask(await request(page))).series;
   assert.ok(series.total.every((value) => value === 0));
@@ -144,17 +174,35 @@ test("the hemisphere, the lobe, the albedo and the trade are the service's numbe
   await choose("hemisphere");
   const [heat] = await plotted(page);
   const radiance = await (await answered("/v1/radiance")).json();
-  assert.deepEqual(heat.z.flat().filter((value) => value !== null), radiance.total.filter((value) => value !== null));
+  assert.deepEqual(
+    heat.z.flat().filter((value) => value !== null),
+    radiance.total.filter((value) => value !== null),
+  );
   await choose("lobe");
-  assert.deepEqual((await plotted(page)).map(({ type }) => type), ["surface", "scatter3d", "scatter3d"]);
+  assert.deepEqual(
+    (await plotted(page)).map(({ type }) => type),
+    ["surface", "scatter3d", "scatter3d"],
+  );
   await choose("albedo");
-  const table = (await (await answered("/v1/albedo")).text()).trim().split("\n").map((line) => line.split(","));
+  const table = (await (await answered("/v1/albedo")).text())
+    .trim()
+    .split("\n")
+    .map((line) => line.split(","));
   const column = table[0].indexOf("total");
-  assert.deepEqual((await plotted(page))[0].y, table.slice(1).map((cells) => Number(cells[column])));
+  assert.deepEqual(
+    (await plotted(page))[0].y,
+    table.slice(1).map((cells) => Number(cells[column])),
+  );
   await choose("tradeoff");
   const trade = await (await answered("/v1/tradeoff")).json();
   const points = (await plotted(page)).filter(({ name }) => name !== "bound stated").flatMap(({ y }) => y);
-  assert.deepEqual(points.sort(), trade.rows.filter((row) => row.largest_relative_error > 0).map((row) => Math.log10(row.largest_relative_error)).sort());
+  assert.deepEqual(
+    points.sort(),
+    trade.rows
+      .filter((row) => row.largest_relative_error > 0)
+      .map((row) => Math.log10(row.largest_relative_error))
+      .sort(),
+  );
   await close();
 });
 
@@ -165,7 +213,10 @@ test("the tolerance shows what it changes", async () => {
   const texts = [await now.textContent()];
   for (const tolerance of ["1e-2", "1e-14"]) {
     await fill(page, "relative_tolerance", tolerance);
-    await page.waitForFunction((before) => document.querySelector("#plan tr.now")?.textContent !== before, texts.at(-1));
+    await page.waitForFunction(
+      (before) => document.querySelector("#plan tr.now")?.textContent !== before,
+      texts.at(-1),
+    );
     texts.push(await now.textContent());
   }
   assert.match(texts[1], /^0\.01.*uniform/);
@@ -175,12 +226,19 @@ test("the tolerance shows what it changes", async () => {
 
 test("data come as files", async () => {
   const { page, close } = await open(browser, service.url);
-  for (const [format, accept] of [["csv", "text/csv"], ["arrow", "application/vnd.apache.arrow.stream"], ["json", "application/json"]]) {
+  for (const [format, accept] of [
+    ["csv", "text/csv"],
+    ["arrow", "application/vnd.apache.arrow.stream"],
+    ["json", "application/json"],
+  ]) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-format="${format}"]`)]);
     const expected = await fetch(await request(page), { headers: { accept } });
     assert.deepEqual(await readFile(await download.path()), Buffer.from(await expected.arrayBuffer()), format);
   }
-  for (const [format, start] of [["svg", "<svg"], ["png", "\x89PNG"]]) {
+  for (const [format, start] of [
+    ["svg", "<svg"],
+    ["png", "\x89PNG"],
+  ]) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-format="${format}"]`)]);
     assert.ok((await readFile(await download.path(), "latin1")).startsWith(start), format);
   }

@@ -28,14 +28,19 @@ for (const colorScheme of ["light", "dark"]) {
   for (const width of [1280, 390]) {
     test(`axe finds nothing: ${colorScheme}, ${width} px`, async () => {
       const { page, close } = await open(browser, service.url, {
-        colorScheme, viewport: { width, height: 844 }, bypassCSP: true, expected: /Failed to load resource/,
+        colorScheme,
+        viewport: { width, height: 844 },
+        bypassCSP: true,
+        expected: /Failed to load resource/,
       });
       await unfold(page);
       await page.check("#explain");
       await page.locator("#plan tr.now").waitFor();
       await page.click("#values summary");
       assert.deepEqual(await violations(page), []);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      const wide = await page.evaluate(
+        () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+      );
       assert.ok(wide <= 0, `the page is ${wide} px too wide`);
       // With a mistake shown it is another page.
       await page.fill("#field-to_deg", "100");
@@ -49,10 +54,11 @@ for (const colorScheme of ["light", "dark"]) {
 
 test("the keyboard is enough", async () => {
   const { page, close } = await open(browser, service.url);
-  const focused = () => page.evaluate(() => {
-    const { id, name, value, tagName } = document.activeElement;
-    return id || `${name || tagName}:${value ?? document.activeElement.textContent}`;
-  });
+  const focused = () =>
+    page.evaluate(() => {
+      const { id, name, value, tagName } = document.activeElement;
+      return id || `${name || tagName}:${value ?? document.activeElement.textContent}`;
+    });
   await page.keyboard.press("Tab");
   assert.equal(await page.evaluate(() => document.activeElement.textContent), "Skip to the controls");
   await page.keyboard.press("Enter");
@@ -69,7 +75,11 @@ test("the keyboard is enough", async () => {
   await drawing(page, () => page.keyboard.press("ArrowRight"));
   assert.deepEqual((await plotted(page)).at(-1).y, (await ask(await request(page))).series[0].total);
   // Every control of the page can be reached from its start, and what has the focus shows it.
-  await page.evaluate(() => document.querySelectorAll("details.group").forEach((group) => { group.open = false; }));
+  await page.evaluate(() =>
+    document.querySelectorAll("details.group").forEach((group) => {
+      group.open = false;
+    }),
+  );
   await page.evaluate(() => document.querySelector(".skip").focus());
   const seen = new Set();
   for (let presses = 0; presses < 60; presses += 1) {
@@ -77,7 +87,18 @@ test("the keyboard is enough", async () => {
     seen.add(await focused());
     if (await page.evaluate(() => document.activeElement.matches("#values summary"))) break;
   }
-  for (const id of ["theme", "preset", "plot:curve", "scale:linear", "parts", "explain", "link", "language:curl", "copy", "code"]) {
+  for (const id of [
+    "theme",
+    "preset",
+    "plot:curve",
+    "scale:linear",
+    "parts",
+    "explain",
+    "link",
+    "language:curl",
+    "copy",
+    "code",
+  ]) {
     assert.ok(seen.has(id), `${id} among ${[...seen].join(", ")}`);
   }
   // Groups open and plots change without a mouse.
@@ -96,10 +117,15 @@ test("what is drawn is also said", async () => {
   assert.match(label, /^Radiance over θᵣ\. Largest 38\.\d+ at 30°\.$/);
   assert.equal(await page.locator("#status").textContent(), label.replace(". ", ": "));
   await page.click("#values summary");
-  const [first] = await page.$$eval("#table tbody tr", (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent)));
+  const [first] = await page.$$eval("#table tbody tr", (rows) =>
+    rows.map((row) => [...row.children].map((cell) => cell.textContent)),
+  );
   const answer = await ask(await request(page));
   assert.equal(first[0], "-80°");
-  assert.equal(Number(first[3].replace(" × 10⁻", "e-").replace("⁵", "5")) > 0 || answer.series[0].total[0] < 1e-3, true);
+  assert.equal(
+    Number(first[3].replace(" × 10⁻", "e-").replace("⁵", "5")) > 0 || answer.series[0].total[0] < 1e-3,
+    true,
+  );
   await close();
 });
 
@@ -127,10 +153,19 @@ test("the picture comes after the controls, and little comes before the first pa
     const document = performance.getEntriesByType("navigation")[0];
     const before = entries.filter(({ responseEnd }) => responseEnd <= paint);
     const bytes = before.reduce((sum, { transferSize }) => sum + transferSize, document.transferSize);
-    return { paint, begun: library.startTime, controls: performance.getEntriesByName("controls")[0].startTime, library: library.transferSize, bytes, drawn: performance.getEntriesByName("drawn")[0].startTime };
+    return {
+      paint,
+      begun: library.startTime,
+      controls: performance.getEntriesByName("controls")[0].startTime,
+      library: library.transferSize,
+      bytes,
+      drawn: performance.getEntriesByName("drawn")[0].startTime,
+    };
   });
   assert.ok(seen.begun >= seen.controls, "the library is asked for before the controls are there");
   const rounded = Object.fromEntries(Object.entries(seen).map(([name, value]) => [name, Math.round(value)]));
-  t.diagnostic(`first paint ${rounded.paint} ms after ${rounded.bytes} bytes, controls ${rounded.controls} ms, plot ${rounded.drawn} ms; plot library ${rounded.library} bytes`);
+  t.diagnostic(
+    `first paint ${rounded.paint} ms after ${rounded.bytes} bytes, controls ${rounded.controls} ms, plot ${rounded.drawn} ms; plot library ${rounded.library} bytes`,
+  );
   await context.close();
 });

@@ -8,11 +8,19 @@ import { chromium } from "playwright-core";
 
 const BINARY = process.env.REFLECTANCE_BINARY ?? "target/release/reflectance";
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run", "--enable-unsafe-swiftshader"];
+const FLAGS = [
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-background-networking",
+  "--no-first-run",
+  "--enable-unsafe-swiftshader",
+];
 
 /** Starts the service, on a port of its own or on a given one. */
 export async function serve(flags = [], port = 0) {
-  const process = spawn(BINARY, ["--listen", `127.0.0.1:${port}`, "--log-level", "off", ...flags], { stdio: ["ignore", "pipe", "inherit"] });
+  const process = spawn(BINARY, ["--listen", `127.0.0.1:${port}`, "--log-level", "off", ...flags], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
   const lines = createInterface({ input: process.stdout });
   const [line] = await once(lines, "line");
   const url = line.match(/http:\/\/[^/ ]*/)[0];
@@ -37,12 +45,18 @@ export async function open(browser, url, { hash = "", expected, drawn = true, ..
   page.on("console", (message) => {
     const text = message.text();
     // What the software renderer says of its own speed is not the page's doing.
-    if (["error", "warning"].includes(message.type()) && !/GL Driver Message|willReadFrequently/.test(text) && !expected?.test(text)) complaints.push(text);
+    if (
+      ["error", "warning"].includes(message.type()) &&
+      !/GL Driver Message|willReadFrequently/.test(text) &&
+      !expected?.test(text)
+    )
+      complaints.push(text);
   });
   page.on("pageerror", (error) => complaints.push(error.stack));
   page.on("request", (request) => {
     const { origin, protocol } = new URL(request.url());
-    if (protocol !== "data:" && protocol !== "blob:" && origin !== new URL(url).origin) complaints.push(`asks ${request.url()}`);
+    if (protocol !== "data:" && protocol !== "blob:" && origin !== new URL(url).origin)
+      complaints.push(`asks ${request.url()}`);
   });
   await page.goto(hash ? `${url}/#${hash}` : `${url}/`);
   if (drawn) await drawing(page);
@@ -66,7 +80,11 @@ export async function drawing(page, action) {
 
 /** What is plotted, by the names in the legend. */
 export const plotted = (page) =>
-  page.evaluate(() => document.getElementById("plot").data.map(({ name, type, x, y, z, r, theta }) => ({ name, type, x, y, z, r, theta })));
+  page.evaluate(() =>
+    document
+      .getElementById("plot")
+      .data.map(({ name, type, x, y, z, r, theta }) => ({ name, type, x, y, z, r, theta })),
+  );
 
 /** The link of the request behind the plot, taken from the page's own code. */
 export async function request(page) {
@@ -85,4 +103,9 @@ export async function fill(page, field, value) {
 }
 
 /** Opens every group of controls. */
-export const unfold = (page) => page.evaluate(() => document.querySelectorAll("details.group").forEach((group) => { group.open = true; }));
+export const unfold = (page) =>
+  page.evaluate(() =>
+    document.querySelectorAll("details.group").forEach((group) => {
+      group.open = true;
+    }),
+  );

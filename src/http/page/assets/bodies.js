@@ -2,10 +2,25 @@
 
 import { list, points, query } from "./state.js";
 
-const SURFACE = ["rms_height_um", "correlation_length_um", "facet_slope_deg", "diffuse_albedo", "specular_scale",
-  "shadowing", "fresnel_average"];
-const SENSOR = ["footprint_um2", "patch_half_x_um", "patch_half_y_um", "pixel_area_um2", "distance_um",
-  "focal_length_um", "aperture_um", "off_axis_deg"];
+const SURFACE = [
+  "rms_height_um",
+  "correlation_length_um",
+  "facet_slope_deg",
+  "diffuse_albedo",
+  "specular_scale",
+  "shadowing",
+  "fresnel_average",
+];
+const SENSOR = [
+  "footprint_um2",
+  "patch_half_x_um",
+  "patch_half_y_um",
+  "pixel_area_um2",
+  "distance_um",
+  "focal_length_um",
+  "aperture_um",
+  "off_axis_deg",
+];
 const TEXTS = new Set(["shadowing", "fresnel_average", "material", "source", "polarization", "method"]);
 
 /** A field's value as JSON has it; what is no number goes as it is, for the service to say so. */
@@ -74,5 +89,7 @@ export function atOneWavelength(body) {
 
 /** A request of /v1/radiance, /v1/brdf, /v1/plan or /v1/tradeoff. */
 export const radiance = (state, geometry, output) => ({
-  ...atOneWavelength(scene(state)), geometry, ...(output ? { output } : {}),
+  ...atOneWavelength(scene(state)),
+  geometry,
+  ...(output ? { output } : {}),
 });

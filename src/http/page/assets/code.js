@@ -27,7 +27,8 @@ function curl({ path, body, grid }) {
   if (!grid) return `${post} ${quote(JSON.stringify(body))}`;
   // The directions every 5 degrees, made by the shell.
   const [before, after] = JSON.stringify({ ...body, geometry: { ...body.geometry, theta_r_deg: "R", phi_r_deg: "P" } })
-    .replace('"P"', "[$P]").split('"R"');
+    .replace('"P"', "[$P]")
+    .split('"R"');
   return [
     "R=$(for t in $(seq 0 5 90); do for p in $(seq 0 5 355); do echo $t; done; done | paste -sd,)",
     "P=$(for t in $(seq 0 5 90); do for p in $(seq 0 5 355); do echo $p; done; done | paste -sd,)",
@@ -38,7 +39,11 @@ function curl({ path, body, grid }) {
 }
 
 /** JSON as a Python literal: three words differ. */
-const python = (value) => JSON.stringify(value, null, 4).replace(/\btrue\b/g, "True").replace(/\bfalse\b/g, "False").replace(/\bnull\b/g, "None");
+const python = (value) =>
+  JSON.stringify(value, null, 4)
+    .replace(/\btrue\b/g, "True")
+    .replace(/\bfalse\b/g, "False")
+    .replace(/\bnull\b/g, "None");
 
 function pythonProgram({ path, body, grid }) {
   const url = JSON.stringify(base() + path);
@@ -46,8 +51,10 @@ function pythonProgram({ path, body, grid }) {
   if (!body) return `import httpx\n\nanswer = httpx.get(${url})\n${end}`;
   const lines = ["import httpx", "", `request = ${python(body)}`];
   if (grid) {
-    lines.push('request["geometry"]["theta_r_deg"] = [t for t in range(0, 91, 5) for p in range(0, 360, 5)]',
-      'request["geometry"]["phi_r_deg"] = [p for t in range(0, 91, 5) for p in range(0, 360, 5)]');
+    lines.push(
+      'request["geometry"]["theta_r_deg"] = [t for t in range(0, 91, 5) for p in range(0, 360, 5)]',
+      'request["geometry"]["phi_r_deg"] = [p for t in range(0, 91, 5) for p in range(0, 360, 5)]',
+    );
   }
   return [...lines, `answer = httpx.post(${url}, json=request)`, end].join("\n");
 }
@@ -58,10 +65,19 @@ function javascript({ path, body, grid }) {
   if (!body) return `const answer = await fetch(${url});\n${end}`;
   const lines = [`const request = ${JSON.stringify(body, null, 2)};`];
   if (grid) {
-    lines.push("const grid = Array.from({ length: 19 * 72 }, (_, i) => [5 * Math.floor(i / 72), 5 * (i % 72)]);",
-      "request.geometry.theta_r_deg = grid.map(([theta]) => theta);", "request.geometry.phi_r_deg = grid.map(([, phi]) => phi);");
+    lines.push(
+      "const grid = Array.from({ length: 19 * 72 }, (_, i) => [5 * Math.floor(i / 72), 5 * (i % 72)]);",
+      "request.geometry.theta_r_deg = grid.map(([theta]) => theta);",
+      "request.geometry.phi_r_deg = grid.map(([, phi]) => phi);",
+    );
   }
-  return [...lines, `const answer = await fetch(${url}, {`, '  method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(request),', "});", end].join("\n");
+  return [
+    ...lines,
+    `const answer = await fetch(${url}, {`,
+    '  method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(request),',
+    "});",
+    end,
+  ].join("\n");
 }
 
 /** The program text in one of three languages. */

@@ -1,7 +1,7 @@
 // The controls: made once from the fields, then kept in step with the state.
 
 import { BEGIN, GROUPS, pointed } from "./fields.js";
-import { list } from "./state.js";
+import { VIEW, list } from "./state.js";
 import { compact, element, name as inWords, number, plain, rich } from "./words.js";
 
 /** Positions of a slider over decades: 300 are finer than a hand. */
@@ -16,7 +16,7 @@ export class Controls {
   constructor(form, known, changed) {
     this.form = form;
     this.changed = changed;
-    const groups = GROUPS.map((group) => this.#group(group, known));
+    const groups = GROUPS.map((group) => this.#group(group, known)).filter((group) => group.querySelector(".field"));
     form.replaceChildren(...groups);
     form.addEventListener("submit", (event) => event.preventDefault());
   }
@@ -24,9 +24,14 @@ export class Controls {
   #group(group, known) {
     const said = element("span", { class: "said" });
     const fields = element("div", { class: "fields" });
-    const details = element("details", { class: "group", open: group.open === true },
-      element("summary", {}, group.title, said), fields);
+    const details = element(
+      "details",
+      { class: "group", open: group.open === true },
+      element("summary", {}, group.title, said),
+      fields,
+    );
     for (const field of group.fields) {
+      if (field.optional && !known.has(field.name)) continue;
       const control = this.#field(field, known.get(field.name) ?? {});
       control.details = details;
       this.#fields.set(field.name, control);
@@ -46,9 +51,17 @@ export class Controls {
     const described = `${id}-hint ${id}-error`;
     const input = this.#input(control, id, described);
     const isGroup = field.several !== undefined;
-    const label = isGroup ? element("span", { class: "label", id: `${id}-label` }, field.label)
+    const label = isGroup
+      ? element("span", { class: "label", id: `${id}-label` }, field.label)
       : element("label", { for: id }, field.label, symbol);
-    control.box = element("div", { class: "field", "data-field": field.name, title: about.description ?? field.hint }, label, input, hint, error);
+    control.box = element(
+      "div",
+      { class: "field", "data-field": field.name, title: about.description ?? field.hint },
+      label,
+      input,
+      hint,
+      error,
+    );
     return control;
   }
 
@@ -58,16 +71,28 @@ export class Controls {
     if (field.several) return this.#several(control, id, described);
     if (field.flag) {
       const box = element("input", { type: "checkbox", ...common });
-      box.addEventListener("change", () => this.#set(control, box.checked === Boolean(field.empty) ? "" : String(box.checked), true));
+      box.addEventListener("change", () =>
+        this.#set(control, box.checked === Boolean(field.empty) ? "" : String(box.checked), true),
+      );
       control.inputs.push(box);
-      control.show = (text) => { box.checked = text === "" ? Boolean(field.empty) : text === "true"; };
+      control.show = (text) => {
+        box.checked = text === "" ? Boolean(field.empty) : text === "true";
+      };
       return element("div", { class: "check" }, box, field.flag);
     }
     if (field.choices || field.kinds || field.materials || field.sources) {
       const select = element("select", { class: "wide", ...common });
       control.options = (names) => {
-        const first = field.empty === undefined ? [] : [element("option", { value: "" }, `${plain(inWords(field.empty))} (default)`)];
-        select.replaceChildren(...first, ...names.filter(([value]) => value !== field.empty).map(([value, words]) => element("option", { value }, plain(words))));
+        const first =
+          field.empty === undefined
+            ? []
+            : [element("option", { value: "" }, `${plain(inWords(field.empty))} (default)`)];
+        select.replaceChildren(
+          ...first,
+          ...names
+            .filter(([value]) => value !== field.empty)
+            .map(([value, words]) => element("option", { value }, plain(words))),
+        );
       };
       const names = [...(field.kinds ?? about.choices ?? []), ...(field.more ?? [])];
       control.options(names.map((value) => [value, inWords(value)]));
@@ -77,7 +102,8 @@ export class Controls {
         let text = given;
         // The default by its name is the default; a name that is not listed yet, or never, is still the state's.
         if (text === field.empty) text = "";
-        if (![...select.options].some((option) => option.value === text)) select.append(element("option", { value: text }, text));
+        if (![...select.options].some((option) => option.value === text))
+          select.append(element("option", { value: text }, text));
         select.value = text;
       };
       return element("div", { class: "row" }, select);
@@ -86,7 +112,9 @@ export class Controls {
   }
 
   #several(control, id, described) {
-    const boxes = control.field.several.map((value) => element("input", { type: "checkbox", value, "aria-describedby": described }));
+    const boxes = control.field.several.map((value) =>
+      element("input", { type: "checkbox", value, "aria-describedby": described }),
+    );
     const auto = element("input", { type: "checkbox", value: "auto", id });
     const take = (event) => {
       const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
@@ -98,7 +126,9 @@ export class Controls {
     control.show = (text) => {
       const chosen = text === "auto" ? [] : text.split(",");
       auto.checked = text === "" || text === "auto";
-      boxes.forEach((box) => { box.checked = chosen.includes(box.value); });
+      boxes.forEach((box) => {
+        box.checked = chosen.includes(box.value);
+      });
     };
     const labels = [auto, ...boxes].map((box) => element("label", { class: "check" }, box, inWords(box.value)));
     return element("div", { class: "choices", role: "group", "aria-labelledby": `${id}-label` }, ...labels);
@@ -107,9 +137,17 @@ export class Controls {
   #number(control, common) {
     const { field, unit } = control;
     const ends = field.log ?? field.linear;
-    const text = element("input", { type: "text", inputmode: field.list ? "text" : "decimal", spellcheck: "false",
-      placeholder: field.empty, class: ends ? undefined : "wide", ...common });
-    text.addEventListener("change", () => this.#set(control, text.value.replaceAll(/\s/g, "").replaceAll("−", "-"), true));
+    const text = element("input", {
+      type: "text",
+      inputmode: field.list ? "text" : "decimal",
+      spellcheck: "false",
+      placeholder: field.empty,
+      class: ends ? undefined : "wide",
+      ...common,
+    });
+    text.addEventListener("change", () =>
+      this.#set(control, text.value.replaceAll(/\s/g, "").replaceAll("−", "-"), true),
+    );
     control.inputs.push(text);
     const row = element("div", { class: "row" });
     if (ends) {
@@ -123,7 +161,9 @@ export class Controls {
         slider.setAttribute("aria-valuetext", `${value || field.empty || ""} ${unit}`.trim());
       };
     } else {
-      control.show = (value) => { text.value = value; };
+      control.show = (value) => {
+        text.value = value;
+      };
     }
     row.append(text, element("span", { class: "unit" }, unit));
     return row;
@@ -157,7 +197,7 @@ export class Controls {
     if (Object.values(patch).some((value) => value === "NaN")) patch = {};
     const state = { ...this.#state, ...patch };
     // A scene that was changed is no longer the report's.
-    delete state.figure;
+    if (!VIEW.includes(field.name)) delete state.figure;
     this.show(state);
     this.changed(state, settled);
   }
@@ -169,7 +209,7 @@ export class Controls {
       const { field, box, symbol } = control;
       box.hidden = field.when !== undefined && !field.when(state);
       if (field.symbolOf) symbol.replaceChildren(...rich(field.symbolOf(state)));
-      const value = field.derived ? derived(field, state) : state[field.name] ?? "";
+      const value = field.derived ? derived(field, state) : (state[field.name] ?? "");
       control.show(value);
     }
     for (const { group, said } of this.#groups) {
@@ -216,7 +256,8 @@ function derived(field, state) {
 
 function explain(field, about, unit) {
   const { minimum, maximum } = about;
-  const range = minimum === undefined ? "" : ` From ${number(minimum)} to ${number(maximum)}${unit === "°" ? "" : " "}${unit}.`;
+  const range =
+    minimum === undefined ? "" : ` From ${number(minimum)} to ${number(maximum)}${unit === "°" ? "" : " "}${unit}.`;
   return `${about.description ?? field.hint ?? ""}${range}`;
 }
 

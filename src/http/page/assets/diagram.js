@@ -11,10 +11,28 @@ const COMPONENTS = ["diffuse_lobe", "specular_lobe", "specular_spike"];
 
 /** The link of the state's diagram at the service. */
 export function link(state) {
-  if (state.figure) return `v1/figures/${encodeURIComponent(state.figure)}${state.scale === "log" ? "?log10=true" : ""}`;
+  if (state.figure)
+    return `v1/figures/${encodeURIComponent(state.figure)}${state.scale === "log10" ? "?log10=true" : ""}`;
   const pairs = query(state);
-  if (state.scale === "log") pairs.log10 = "true";
+  if (state.scale === "log10") pairs.log10 = "true";
   return `v1/diagrams?${encode(pairs)}`;
+}
+
+/** The link of the service's own picture of it. */
+export function picture(state, isDark) {
+  const { scale, curves, decades, width_px, height_px } = state;
+  const options = {
+    form: state.plot === "polar" ? "polar" : "cartesian",
+    scale,
+    curves,
+    decades,
+    width_px,
+    height_px,
+    theme: state.theme || (isDark ? "dark" : "light"),
+  };
+  const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value));
+  const path = link({ ...state, scale: "linear" });
+  return `${path}${path.includes("?") ? "&" : "?"}${encode(given)}`;
 }
 
 /** The curves of a state. */
@@ -87,7 +105,15 @@ async function long(state, signal, progress) {
     return { label: title(series, { name: fixedAt }, "", ""), ...thinned.curve(), series };
   });
   const quantity = state.quantity || "radiance";
-  return { axis: state.sweep, fixed: fixedAt, quantity, unit: heading.unit, curves: made, rows: count, thinned: stretch > 1 };
+  return {
+    axis: state.sweep,
+    fixed: fixedAt,
+    quantity,
+    unit: heading.unit,
+    curves: made,
+    rows: count,
+    thinned: stretch > 1,
+  };
 }
 
 /** Which column of a table is what: `total_W_m-2_sr-1`, `log10_total`. */
@@ -99,11 +125,21 @@ function columnsOf(cells, axis, fixed) {
       if (cell === `log10_${key}`) values.push({ key, at, log: true });
       else if (cell === key || cell.startsWith(`${key}_`)) {
         values.push({ key, at, log: false });
-        if (key === "total") unit = cell.slice(key.length + 1).replaceAll("_", " ").replace(/([a-z])(-\d)/g, "$1^$2");
+        if (key === "total")
+          unit = cell
+            .slice(key.length + 1)
+            .replaceAll("_", " ")
+            .replace(/([a-z])(-\d)/g, "$1^$2");
       }
     }
   });
-  return { axis: cells.indexOf(axis), fixed: cells.indexOf(fixed), wavelength: cells.indexOf("wavelength_um"), values, unit };
+  return {
+    axis: cells.indexOf(axis),
+    fixed: cells.indexOf(fixed),
+    wavelength: cells.indexOf("wavelength_um"),
+    values,
+    unit,
+  };
 }
 
 /** Least and largest of each stretch, in the order in which they came. */

@@ -3,12 +3,18 @@
 import { json } from "./service.js";
 import { unitSign } from "./words.js";
 
-const SUFFIXES = [[/_um2$/, "square micrometres"], [/_um$/, "micrometres"], [/_deg$/, "degrees"]];
+const SUFFIXES = [
+  [/_um2$/, "square micrometres"],
+  [/_um$/, "micrometres"],
+  [/_deg$/, "degrees"],
+];
 
 /** The fields of a diagram by name: `minimum`, `maximum`, `choices`, `description`, `unit`. */
 export async function fields() {
   const [document, limits] = await Promise.all([json("openapi.json"), limitsIfAllowed()]);
-  const units = new Map(limits.ranges.filter((range) => range.of === "DiagramRequest").map((range) => [range.name, range.unit]));
+  const units = new Map(
+    limits.ranges.filter((range) => range.of === "DiagramRequest").map((range) => [range.name, range.unit]),
+  );
   const found = new Map();
   for (const parameter of document.paths["/v1/diagrams"].get.parameters) {
     const { name, description = "", schema } = parameter;
@@ -22,7 +28,7 @@ export async function fields() {
       unit: unitSign(stated),
     });
   }
-  return { found, limits: new Map(limits.limits.map((limit) => [limit.name, limit.value])) };
+  return found;
 }
 
 /** The schema of one value, where there may be a list. */
@@ -37,6 +43,6 @@ async function limitsIfAllowed() {
     return await json("v1/limits");
   } catch (error) {
     if (error.status === undefined) throw error;
-    return { limits: [], ranges: [] };
+    return { ranges: [] };
   }
 }

@@ -2,7 +2,7 @@
 
 import { request as hemisphere } from "./hemisphere.js";
 import { albedoRequest, tradeoffRequest } from "./charts.js";
-import { link } from "./diagram.js";
+import { link, picture } from "./diagram.js";
 import { library } from "./plotting.js";
 import { stream } from "./service.js";
 import { rows } from "./state.js";
@@ -16,6 +16,7 @@ const TYPES = {
   png: "image/png",
 };
 const PICTURES = new Set(["svg", "png"]);
+const DIAGRAMS = new Set(["curve", "polar"]);
 
 /** Whether what is plotted can be had in a format. */
 export const has = (state, format) => PICTURES.has(format) || format === "json" || state.plot !== "tradeoff";
@@ -36,16 +37,18 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(anchor.href), 10000);
 }
 
-/** Fetches the plot's data in a format and saves it. Pictures are of the plot as it stands. */
-export async function download(state, format, signal, progress, plot) {
+/** Fetches the plot's data in a format and saves it. Pictures of diagrams are the service's; others are of the plot as it
+ * stands. */
+export async function download(state, format, signal, progress, plot, isDark) {
   const name = `reflectance-${state.figure ? `figure-${state.figure}` : state.plot}.${format}`;
-  if (PICTURES.has(format)) {
+  const isPicture = PICTURES.has(format);
+  if (isPicture && !DIAGRAMS.has(state.plot)) {
     const Plotly = await library();
     const url = await Plotly.toImage(plot, { format, width: 900, height: 600, scale: format === "png" ? 2 : 1 });
     save(await asBlob(url), name);
     return name;
   }
-  const { path, body } = request(state);
+  const { path, body } = isPicture ? { path: picture(state, isDark) } : request(state);
   const isDiagram = path.startsWith("v1/diagrams");
   const isLines = format === "csv" && isDiagram;
   const pieces = [];

@@ -3,7 +3,8 @@
 
 import { list } from "./state.js";
 
-const heights = (state) => state.model !== "lambertian" && !(state.model === "torrance_sparrow" && state.facet_slope_deg);
+const heights = (state) =>
+  state.model !== "lambertian" && !(state.model === "torrance_sparrow" && state.facet_slope_deg);
 const facets = (state) => state.model === "torrance_sparrow" || state.model === "unified";
 const specular = (state) => state.model !== "lambertian";
 const diffuse = (state) => state.model !== "beckmann_spizzichino";
@@ -16,7 +17,13 @@ const digits = (value) => String(Number(value.toPrecision(5)));
 /** Two sliders that are no fields of the service: they move several. */
 const DERIVED = [
   {
-    name: "roughness", label: "Roughness", symbol: "σ_h / λ", unit: "λ", log: [0.002, 10], when: heights, derived: true,
+    name: "roughness",
+    label: "Roughness",
+    symbol: "σ_h / λ",
+    unit: "λ",
+    log: [0.002, 10],
+    when: heights,
+    derived: true,
     hint: "Moves σ_h and T together, so that the slope stays: from a mirror with a spike to a rough surface with a lobe.",
     get: roughness,
     set: (state, value) => {
@@ -25,7 +32,13 @@ const DERIVED = [
     },
   },
   {
-    name: "slope", label: "Slope", symbol: "σ_h / T", unit: "", log: [0.002, 1], when: heights, derived: true,
+    name: "slope",
+    label: "Slope",
+    symbol: "σ_h / T",
+    unit: "",
+    log: [0.002, 1],
+    when: heights,
+    derived: true,
     hint: "Moves T: gentle surfaces have narrow lobes.",
     get: slope,
     set: (state, value) => ({ correlation_length_um: digits(Number(state.rms_height_um) / value) }),
@@ -36,7 +49,8 @@ const DERIVED = [
  * service takes. */
 export const GROUPS = [
   {
-    title: "Model", open: true,
+    title: "Model",
+    open: true,
     said: (state) => state.model,
     fields: [
       { name: "model", label: "Model", choices: true },
@@ -45,13 +59,21 @@ export const GROUPS = [
     ],
   },
   {
-    title: "Surface", open: true,
+    title: "Surface",
+    open: true,
     said: (state) => (state.rms_height_um ? `σ_h ${state.rms_height_um} µm` : ""),
     fields: [
       ...DERIVED,
       { name: "rms_height_um", label: "RMS height", symbol: "σ_h", log: [1e-4, 100], when: specular },
       { name: "correlation_length_um", label: "Correlation length", symbol: "T", log: [1e-3, 1000], when: specular },
-      { name: "facet_slope_deg", label: "Facet slope", symbol: "σ_α", log: [0.01, 60], empty: "from σ_h/T", when: facets },
+      {
+        name: "facet_slope_deg",
+        label: "Facet slope",
+        symbol: "σ_α",
+        log: [0.01, 60],
+        empty: "from σ_h/T",
+        when: facets,
+      },
       { name: "diffuse_albedo", label: "Diffuse albedo", symbol: "ρ", linear: [0, 1, 0.01], empty: "0", when: diffuse },
       { name: "specular_scale", label: "Specular scale", symbol: "c·a_f", empty: "normalized", when: facets },
       { name: "shadowing", label: "Shadowing", choices: true, empty: "of the model", when: specular },
@@ -59,14 +81,38 @@ export const GROUPS = [
   },
   {
     title: "Medium",
-    said: (state) => (state.medium === "material" ? state.material : state.medium === "index" ? `${state.n} − ${state.k || 0}i` : "perfect conductor"),
+    said: (state) =>
+      state.medium === "material"
+        ? state.material
+        : state.medium === "index"
+          ? `${state.n} − ${state.k || 0}i`
+          : "perfect conductor",
     fields: [
       { name: "medium", label: "Medium", kinds: ["perfect_conductor", "index", "material"] },
       { name: "material", label: "Material", materials: true, when: (state) => state.medium === "material" },
-      { name: "source", label: "Source of n and k", sources: true, empty: "default", when: (state) => state.medium === "material" },
+      {
+        name: "source",
+        label: "Source of n and k",
+        sources: true,
+        empty: "default",
+        when: (state) => state.medium === "material",
+      },
       { name: "n", label: "Index", symbol: "n", linear: [0.05, 4, 0.01], when: (state) => state.medium === "index" },
-      { name: "k", label: "Extinction", symbol: "k", linear: [0, 10, 0.01], empty: "0", when: (state) => state.medium === "index" },
-      { name: "fresnel_average", label: "Average of F", choices: true, empty: "half_vector", when: (state) => state.medium !== "perfect_conductor" },
+      {
+        name: "k",
+        label: "Extinction",
+        symbol: "k",
+        linear: [0, 10, 0.01],
+        empty: "0",
+        when: (state) => state.medium === "index",
+      },
+      {
+        name: "fresnel_average",
+        label: "Average of F",
+        choices: true,
+        empty: "half_vector",
+        when: (state) => state.medium !== "perfect_conductor",
+      },
     ],
   },
   {
@@ -76,16 +122,35 @@ export const GROUPS = [
       { name: "wavelength_um", label: "Wavelength", symbol: "λ", log: [1e-4, 100], list: true },
       { name: "irradiance", label: "Irradiance", empty: "1", log: [1e-3, 1e6] },
       { name: "polarization", label: "Polarization", choices: true, more: ["mix"], empty: "unpolarized" },
-      { name: "parallel", label: "Parallel share", symbol: "h", linear: [0, 1, 0.01], when: (state) => state.polarization === "mix" },
-      { name: "perpendicular", label: "Perpendicular share", symbol: "v", linear: [0, 1, 0.01], when: (state) => state.polarization === "mix" },
+      {
+        name: "parallel",
+        label: "Parallel share",
+        symbol: "h",
+        linear: [0, 1, 0.01],
+        when: (state) => state.polarization === "mix",
+      },
+      {
+        name: "perpendicular",
+        label: "Perpendicular share",
+        symbol: "v",
+        linear: [0, 1, 0.01],
+        when: (state) => state.polarization === "mix",
+      },
     ],
   },
   {
-    title: "Directions", open: true,
+    title: "Directions",
+    open: true,
     said: (state) => `${state.sweep === "theta_i_deg" ? "θ_i" : "θ_r"} ${state.from_deg} to ${state.to_deg}°`,
     fields: [
       { name: "sweep", label: "Swept angle", choices: true },
-      { name: "at_deg", label: "Fixed angles", linear: [0, 89.5, 0.5], list: true, symbolOf: (state) => (state.sweep === "theta_i_deg" ? "θ_r" : "θ_i") },
+      {
+        name: "at_deg",
+        label: "Fixed angles",
+        linear: [0, 89.5, 0.5],
+        list: true,
+        symbolOf: (state) => (state.sweep === "theta_i_deg" ? "θ_r" : "θ_i"),
+      },
       { name: "phi_r_deg", label: "Azimuth of the viewer", symbol: "φ_r", linear: [-180, 180, 1], empty: "0" },
       { name: "from_deg", label: "From", linear: [-90, 90, 0.5] },
       { name: "to_deg", label: "To", linear: [-90, 90, 0.5] },
@@ -113,11 +178,22 @@ export const GROUPS = [
     ],
   },
   {
-    title: "Accuracy", open: true,
+    title: "Accuracy",
+    open: true,
     said: (state) => state.relative_tolerance || "1e-9",
     fields: [
       { name: "relative_tolerance", label: "Tolerance", symbol: "relative", log: [1e-15, 0.1], empty: "1e-9" },
       { name: "method", label: "Method of the lobe series", choices: true, empty: "auto" },
+    ],
+  },
+  {
+    title: "Picture",
+    said: () => "",
+    fields: [
+      { name: "decades", label: "Decades of a log scale", empty: "12", optional: true },
+      { name: "width_px", label: "Width of a file", empty: "720", unit: "px", optional: true },
+      { name: "height_px", label: "Height of a file", empty: "480", unit: "px", optional: true },
+      { name: "theme", label: "Colours of a file", choices: true, empty: "as the page", optional: true },
     ],
   },
   {

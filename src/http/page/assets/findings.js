@@ -19,20 +19,53 @@ export function show(box, answers, plan, medium) {
   if (Object.keys(counts).length > 0) facts.push(["Methods", `${methods(counts)} directions`]);
   const bounds = answers.flatMap((answer) => answer.relative_error_bound ?? []).filter((value) => value !== null);
   // Spread over a call, a long column would overflow the stack.
-  if (bounds.length > 0) facts.push(["Error bound", `at most ${bound(bounds.reduce((a, b) => Math.max(a, b)))}, relative`]);
+  if (bounds.length > 0)
+    facts.push(["Error bound", `at most ${bound(bounds.reduce((a, b) => Math.max(a, b)))}, relative`]);
   else if (plan) facts.push(["Error bound", `at most ${bound(plan.relative_error_bound)}, relative (planned)`]);
   const looked = medium ?? plan?.medium;
-  if (looked) facts.push(["Looked up", `${looked.material} (${looked.source}): n = ${number(looked.n, 6)}, k = ${number(looked.k, 6)}`]);
+  if (looked)
+    facts.push([
+      "Looked up",
+      `${looked.material} (${looked.source}): n = ${number(looked.n, 6)}, k = ${number(looked.k, 6)}`,
+    ]);
   const spectrum = answers.filter((answer) => answer.medium && answer.wavelength_um !== undefined);
   for (const { medium: one, wavelength_um } of spectrum.slice(0, 6)) {
-    facts.push([`At ${number(wavelength_um)} µm`, `${one.material} (${one.source}): n = ${number(one.n, 6)}, k = ${number(one.k, 6)}`]);
+    facts.push([
+      `At ${number(wavelength_um)} µm`,
+      `${one.material} (${one.source}): n = ${number(one.n, 6)}, k = ${number(one.k, 6)}`,
+    ]);
   }
-  const list = element("dl", { class: "facts" }, ...facts.flatMap(([term, words]) => [element("dt", {}, term), element("dd", {}, ...rich(words))]));
+  const list = element(
+    "dl",
+    { class: "facts" },
+    ...facts.flatMap(([term, words]) => [element("dt", {}, term), element("dd", {}, ...rich(words))]),
+  );
   const said = answers.length > 0 ? answers : [plan ?? {}];
   const notes = [
-    ...grouped(said, "omitted", (item) => item.component).map(([item, where]) => note("omitted", `Left out: ${name(item.component)}`, sentence(item.reason), item.bound, where, "adds at most")),
-    ...grouped(said, "warnings", (item) => `${item.code}${item.parameter ?? ""}`).map(([item, where]) => note("warning", heading(item.code), `${item.parameter ? `${item.parameter}: ` : ""}${sentence(item.detail)}`, item.value, where, "value")),
-    ...grouped(said, "diagnostics", (item) => item.code).map(([item, where, count]) => note("warning", heading(item.code), sentence(item.detail), undefined, where, "", `${count} ${count === 1 ? "value" : "values"}`)),
+    ...grouped(said, "omitted", (item) => item.component).map(([item, where]) =>
+      note("omitted", `Left out: ${name(item.component)}`, sentence(item.reason), item.bound, where, "adds at most"),
+    ),
+    ...grouped(said, "warnings", (item) => `${item.code}${item.parameter ?? ""}`).map(([item, where]) =>
+      note(
+        "warning",
+        heading(item.code),
+        `${item.parameter ? `${item.parameter}: ` : ""}${sentence(item.detail)}`,
+        item.value,
+        where,
+        "value",
+      ),
+    ),
+    ...grouped(said, "diagnostics", (item) => item.code).map(([item, where, count]) =>
+      note(
+        "warning",
+        heading(item.code),
+        sentence(item.detail),
+        undefined,
+        where,
+        "",
+        `${count} ${count === 1 ? "value" : "values"}`,
+      ),
+    ),
   ];
   const none = element("p", { class: "muted" }, "Nothing was left out, and nothing needs a warning.");
   box.replaceChildren(list, notes.length > 0 ? element("ul", { class: "notes" }, ...notes) : none);
@@ -53,7 +86,11 @@ function grouped(answers, kind, keyOf) {
       group[2] += 1;
     }
   }
-  return [...groups.values()].map(([item, labels, count]) => [item, answers.length > 1 && labels.size < answers.length ? [...labels] : [], count]);
+  return [...groups.values()].map(([item, labels, count]) => [
+    item,
+    answers.length > 1 && labels.size < answers.length ? [...labels] : [],
+    count,
+  ]);
 }
 
 function note(kind, title, detail, value, where, words, more) {

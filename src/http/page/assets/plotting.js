@@ -32,11 +32,16 @@ export function theme() {
     return getComputedStyle(probe).color;
   };
   const found = {
-    text: read("--text"), muted: read("--muted"), line: read("--line"), card: read("--card"), accent: read("--accent"),
+    text: read("--text"),
+    muted: read("--muted"),
+    line: read("--line"),
+    card: read("--card"),
+    accent: read("--accent"),
   };
   probe.remove();
   const [red, green, blue] = found.card.match(/\d+(\.\d+)?/g).map(Number);
-  found.colours = red + green + blue > 384 ? LIGHT : DARK;
+  found.isDark = red + green + blue <= 384;
+  found.colours = found.isDark ? DARK : LIGHT;
   return found;
 }
 
@@ -57,8 +62,14 @@ export function layout(colours, more) {
 
 /** An axis in the page's colours. */
 export const axis = (colours, more) => ({
-  gridcolor: colours.line, linecolor: colours.muted, zerolinecolor: colours.line, ticks: "outside", tickcolor: colours.line,
-  ticklen: 4, automargin: true, ...more,
+  gridcolor: colours.line,
+  linecolor: colours.muted,
+  zerolinecolor: colours.line,
+  ticks: "outside",
+  tickcolor: colours.line,
+  ticklen: 4,
+  automargin: true,
+  ...more,
 });
 
 /** An axis of decimal logarithms: ticks at whole powers, as many as there is room for, and a range that begins no
@@ -76,7 +87,8 @@ export function decades(least, most, depth = Infinity) {
   if (range[1] - range[0] < 2) {
     const ticks = [];
     for (let at = Math.floor(range[0]); at <= range[1]; at += 1) {
-      for (const digit of [1, 2, 5]) ticks.push([at + Math.log10(digit), `${digit === 1 ? "" : `${digit}·`}${powerOfTen(at)}`]);
+      for (const digit of [1, 2, 5])
+        ticks.push([at + Math.log10(digit), `${digit === 1 ? "" : `${digit}·`}${powerOfTen(at)}`]);
     }
     return { range, tickvals: ticks.map(([at]) => at), ticktext: ticks.map(([, text]) => text) };
   }

@@ -26,7 +26,9 @@ export class Progress {
     this.#total = total;
     this.#noun = noun;
     this.#last = 0;
-    this.#timer = setTimeout(() => { this.#box.hidden = false; }, PATIENCE);
+    this.#timer = setTimeout(() => {
+      this.#box.hidden = false;
+    }, PATIENCE);
     this.#say(0);
   }
 

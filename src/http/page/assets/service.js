@@ -43,8 +43,12 @@ export async function ask(path, { body, accept = "application/json", signal } = 
   if (body !== undefined) headers["content-type"] = "application/json";
   let response;
   try {
-    response = await fetch(path, { method: body === undefined ? "GET" : "POST", headers, signal,
-      body: body === undefined ? undefined : JSON.stringify(body) });
+    response = await fetch(path, {
+      method: body === undefined ? "GET" : "POST",
+      headers,
+      signal,
+      body: body === undefined ? undefined : JSON.stringify(body),
+    });
   } catch (error) {
     if (error.name === "AbortError") throw error;
     throw new Away("The service does not answer.");
@@ -59,7 +63,11 @@ export async function ask(path, { body, accept = "application/json", signal } = 
 }
 
 /** An answer as JSON. */
-export const json = async (path, options) => taken(() => ask(path, options), (response) => response.json());
+export const json = async (path, options) =>
+  taken(
+    () => ask(path, options),
+    (response) => response.json(),
+  );
 
 async function taken(send, read) {
   const response = await send();
@@ -73,14 +81,17 @@ async function taken(send, read) {
 
 /** Reads an answer while it arrives, and gives each piece of bytes to `each`. */
 export async function stream(path, options, each) {
-  return taken(() => ask(path, options), async (response) => {
-    const reader = response.body.getReader();
-    for (;;) {
-      const { done, value } = await reader.read();
-      if (done) return response;
-      each(value);
-    }
-  });
+  return taken(
+    () => ask(path, options),
+    async (response) => {
+      const reader = response.body.getReader();
+      for (;;) {
+        const { done, value } = await reader.read();
+        if (done) return response;
+        each(value);
+      }
+    },
+  );
 }
 
 /** The same, line by line. */

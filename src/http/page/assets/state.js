@@ -1,8 +1,9 @@
 // The state of the page: the names and values of a link to /v1/diagrams, and a few names of how it is drawn.
 // All of it stands in the fragment, so that every state is a link and the back button works.
 
-/** How the answer is drawn; everything else is for the service. */
-export const VIEW = ["plot", "scale", "parts", "figure"];
+/** How the answer is drawn, by the names that the service has for its own pictures where it has them; everything else is
+ * the request. */
+export const VIEW = ["plot", "figure", "scale", "curves", "decades", "theme", "width_px", "height_px"];
 /** Choices of the page among fields that exclude each other. They follow from which of the fields are there. */
 const KINDS = ["medium", "sensor"];
 const PATCH = ["footprint_um2", "patch_half_x_um", "patch_half_y_um"];
@@ -26,7 +27,6 @@ export const START = {
   at_deg: "30",
   plot: "curve",
   scale: "linear",
-  parts: "1",
 };
 
 /** Where choices and directions begin if a link does not say. */
@@ -74,7 +74,12 @@ export function fragment(state) {
 }
 
 /** The numbers of a field that may be a list. */
-export const list = (text) => (text ?? "").split(",").map((part) => part.trim()).filter(Boolean).map(Number);
+export const list = (text) =>
+  (text ?? "")
+    .split(",")
+    .map((part) => part.trim())
+    .filter(Boolean)
+    .map(Number);
 
 /** How many rows the service will answer: points along the sweep, times fixed angles, times wavelengths. */
 export function rows(state) {
@@ -100,7 +105,7 @@ export class Address {
   /** The state of the address as it stands. */
   state() {
     const text = location.hash.slice(1);
-    return text ? parse(text) : { ...START };
+    return text.includes("=") ? parse(text) : { ...START };
   }
 
   /** A state worth going back to. */

@@ -15,10 +15,34 @@ const nothing = () => [];
 export const VIEWS = {
   curve: { load: diagram.load, draw: curves.cartesian, words: curves.words, table: curves.table, findings: ofCurves },
   polar: { load: diagram.load, draw: curves.polar, words: curves.words, table: curves.table, findings: ofCurves },
-  hemisphere: { load: hemisphere.load, draw: hemisphere.disk, words: hemisphere.words, table: hemisphere.table, findings: ofAnswer },
-  lobe: { load: hemisphere.load, draw: hemisphere.lobe, words: hemisphere.words, table: hemisphere.table, findings: ofAnswer },
-  albedo: { load: charts.loadAlbedo, draw: charts.albedo, words: charts.albedoWords, table: charts.albedoTable, findings: nothing },
-  tradeoff: { load: charts.loadTradeoff, draw: charts.tradeoff, words: charts.tradeoffWords, table: charts.tradeoffTable, findings: nothing },
+  hemisphere: {
+    load: hemisphere.load,
+    draw: hemisphere.disk,
+    words: hemisphere.words,
+    table: hemisphere.table,
+    findings: ofAnswer,
+  },
+  lobe: {
+    load: hemisphere.load,
+    draw: hemisphere.lobe,
+    words: hemisphere.words,
+    table: hemisphere.table,
+    findings: ofAnswer,
+  },
+  albedo: {
+    load: charts.loadAlbedo,
+    draw: charts.albedo,
+    words: charts.albedoWords,
+    table: charts.albedoTable,
+    findings: nothing,
+  },
+  tradeoff: {
+    load: charts.loadTradeoff,
+    draw: charts.tradeoff,
+    words: charts.tradeoffWords,
+    table: charts.tradeoffTable,
+    findings: nothing,
+  },
 };
 
 /** Title and line below it. */
