@@ -14,6 +14,7 @@ mod link;
 mod negotiate;
 mod openapi;
 mod page;
+mod plot;
 mod problem;
 mod routes;
 mod transport;

@@ -1,6 +1,7 @@
 //! Content negotiation by the `Accept` header, RFC 9110 section 12.5.1.
 
 use super::encode::rows::RowFormat;
+use super::plot::Picture;
 use super::problem::{Kind, Problem};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -16,11 +17,22 @@ pub(crate) enum Format {
     Csv,
     Arrow,
     Npy,
+    Picture(Picture),
 }
 
 impl Format {
     /// What every tabular answer is offered as, the preferred one first.
     pub(crate) const TABULAR: [Self; 4] = [Self::Json, Self::Csv, Self::Arrow, Self::Npy];
+
+    /// What a diagram is offered as: the same, and drawn.
+    pub(crate) const DRAWABLE: [Self; 6] = [
+        Self::Json,
+        Self::Csv,
+        Self::Arrow,
+        Self::Npy,
+        Self::Picture(Picture::Svg),
+        Self::Picture(Picture::Png),
+    ];
 
     /// The media type without parameters.
     pub(crate) const fn media_type(self) -> &'static str {
@@ -29,6 +41,8 @@ impl Format {
             Self::Csv => "text/csv",
             Self::Arrow => "application/vnd.apache.arrow.stream",
             Self::Npy => "application/x-npy",
+            Self::Picture(Picture::Svg) => "image/svg+xml",
+            Self::Picture(Picture::Png) => "image/png",
         }
     }
 
@@ -48,10 +62,15 @@ impl Format {
         }
     }
 
-    /// How its rows are written; JSON answers are not made of rows.
+    /// Which picture it is.
+    pub(crate) const fn picture(self) -> Option<Picture> {
+        if let Self::Picture(picture) = self { Some(picture) } else { None }
+    }
+
+    /// How its rows are written; answers as JSON and pictures are not made of rows.
     pub(crate) const fn row_format(self) -> Option<RowFormat> {
         match self {
-            Self::Json => None,
+            Self::Json | Self::Picture(_) => None,
             Self::Csv => Some(RowFormat::Csv),
             Self::Arrow => Some(RowFormat::Arrow),
             Self::Npy => Some(RowFormat::Npy),
@@ -87,6 +106,17 @@ impl<S: Sync> FromRequestParts<S> for Tabular {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
         negotiate(&parts.headers, &Format::TABULAR).map(Self)
+    }
+}
+
+/// What a diagram is answered as.
+pub(crate) struct Drawable(pub(crate) Format);
+
+impl<S: Sync> FromRequestParts<S> for Drawable {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        negotiate(&parts.headers, &Format::DRAWABLE).map(Self)
     }
 }
 

@@ -32,13 +32,16 @@ pub(super) fn beckmann_spizzichino(
     }))
 }
 
-/// A Torrance-Sparrow lobe with c·a_f = 1, F = 1 and G = 1.
-pub(super) fn torrance_sparrow(facet_slope: FacetSlope) -> Result<Scene, OutOfBounds> {
+/// A Torrance-Sparrow lobe with F = 1 and G = 1; without a c·a_f its facets tile the mean plane.
+pub(super) fn torrance_sparrow(
+    facet_slope: FacetSlope,
+    specular_scale: Option<SpecularScale>,
+) -> Result<Scene, OutOfBounds> {
     Ok(Scene::preset(SceneParameters {
         model: Model::TorranceSparrow,
         surface: Surface {
             facet_slope: Some(facet_slope),
-            specular_scale: Some(SpecularScale::new(1.0)?),
+            specular_scale,
             shadowing: Some(Shadowing::None),
             fresnel_average: None,
             ..bare()?

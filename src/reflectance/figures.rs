@@ -1,7 +1,8 @@
 //! The report's diagrams as presets: the captions' parameters, their length unit taken as µm.
 //!
 //! Where a caption is silent (errata E28): θ = 10, 30, 45, 60°, X = Y = 10, footprint 400,
-//! irradiance 1; and for Torrance-Sparrow c·a_f = 1, F = 1 and G = 1, as the text assumes.
+//! irradiance 1; and for Torrance-Sparrow c·a_f = 1, F = 1 and G = 1, as the text assumes. In 21d, which compares it
+//! with the other model, c·a_f is that of facets that tile the mean plane (errata E31).
 
 use super::diagram::{Division, Sweep, SweepAxis};
 use super::evaluate::{Output, Quantity};
@@ -10,8 +11,8 @@ use super::fresnel::{Medium, RefractiveIndex};
 use super::geometry::Geometry;
 use super::numeric::lobe_series::Method;
 use super::quantity::{
-    Azimuth, FacetSlope, IndexK, IndexN, OutOfBounds, Quantity as _, SourceZenith, SweepAngle, SweepStep,
-    ViewerZenith,
+    Azimuth, FacetSlope, IndexK, IndexN, OutOfBounds, Quantity as _, SourceZenith, SpecularScale, SweepAngle,
+    SweepStep, ViewerZenith,
 };
 use super::scene::{Component, Scene};
 use super::shadowing::ShadowingFunction;
@@ -147,14 +148,14 @@ pub const FIGURES: [Figure; 38] = [
     Figure {
         id: "21d",
         title: "Radiance predicted by the Torrance-Sparrow and the Beckmann-Spizzichino model (49)",
-        parameters: "σ_α = 13°; σ_h/T = 0.166 by (79) (errata E49), T = 0.01, λ = 0.0001 chosen here",
+        parameters: "σ_α = 13°, facets that tile the mean plane (errata E31); σ_h/T = 0.166 by (79) (errata E49), T = 0.01, λ = 0.0001 chosen here",
         content: Content::BothModels { sigma_alpha: 13.0 },
     },
     facets("21e", "σ_α = 15°", 15.0, SweepAxis::ThetaR),
     facets("21f", "σ_α = 17°", 17.0, SweepAxis::ThetaR),
     Figure {
         id: "22",
-        title: "The three reflection components over the viewing angle (polar in the report)",
+        title: "The three reflection components over the viewing angle",
         parameters: components_of_section_5::PARAMETERS,
         content: Content::Components { axis: SweepAxis::ThetaR },
     },
@@ -172,7 +173,7 @@ pub const FIGURES: [Figure; 38] = [
     facets("23f", "σ_α = 15.416°", 15.416, SweepAxis::ThetaI),
     Figure {
         id: "24",
-        title: "The three reflection components over the source angle (polar in the report)",
+        title: "The three reflection components over the source angle",
         parameters: components_of_section_5::PARAMETERS,
         content: Content::Components { axis: SweepAxis::ThetaI },
     },
@@ -206,6 +207,11 @@ pub struct View {
 }
 
 impl Figure {
+    /// Whether the report draws it as a polar plot.
+    pub const fn is_polar(&self) -> bool {
+        matches!(self.content, Content::Components { .. })
+    }
+
     /// The scenes behind the panels; none for figures 18 and 19, which plot a formula.
     pub fn views(&self) -> Result<Vec<View>, OutOfBounds> {
         let bs = "Beckmann-Spizzichino (47)";
@@ -232,7 +238,8 @@ impl Figure {
             }
             Content::Facets { sigma_alpha, axis } => {
                 let sweep = if axis == SweepAxis::ThetaR { over_view() } else { over_source() };
-                Ok(vec![view(TS, torrance_sparrow(FacetSlope::new(sigma_alpha)?)?, sweep?)])
+                let scene = torrance_sparrow(FacetSlope::new(sigma_alpha)?, Some(SpecularScale::new(1.0)?))?;
+                Ok(vec![view(TS, scene, sweep?)])
             }
             Content::BothModels { sigma_alpha } => {
                 let slope = FacetSlope::new(sigma_alpha)?;
@@ -244,7 +251,8 @@ impl Figure {
                     &[Component::SpecularLobe],
                     Method::Rough,
                 )?;
-                Ok(vec![view(TS, torrance_sparrow(slope)?, over_view()?), view(ROUGH, rough, over_view()?)])
+                let facets = torrance_sparrow(slope, None)?;
+                Ok(vec![view(TS, facets, over_view()?), view(ROUGH, rough, over_view()?)])
             }
             Content::Components { axis } => {
                 let scene = components_of_section_5::scene()?;

@@ -17,6 +17,7 @@ mod limits;
 mod materials;
 mod page;
 mod plan;
+mod plots;
 mod properties;
 mod protocol;
 mod radiance;

@@ -83,15 +83,15 @@ fn an_unacceptable_accept_is_told_what_is_offered() {
         (
             "POST",
             "/v1/diagrams",
-            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy, image/svg+xml, image/png",
         ),
         (
             "GET",
             "/v1/figures/18",
-            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy",
+            "application/json, text/csv, application/vnd.apache.arrow.stream, application/x-npy, image/svg+xml, image/png",
         ),
     ] {
-        let request = server.request(method, path).header("accept", "image/png");
+        let request = server.request(method, path).header("accept", "image/webp");
         let document =
             problem(request.header("content-type", "application/json").body(BODY).send().unwrap(), 406);
         assert!(document["detail"].as_str().unwrap().ends_with(offered), "{document}");

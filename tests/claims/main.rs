@@ -4,6 +4,7 @@
 mod claim;
 mod facets;
 mod fixed_view;
+mod gallery;
 mod lobe;
 mod map;
 mod materials;

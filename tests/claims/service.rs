@@ -39,6 +39,17 @@ pub(crate) fn get(link: &str) -> (StatusCode, Value) {
     send(Request::get(link).body(Body::empty()).expect("a request"))
 }
 
+/// The picture of a link.
+pub(crate) fn drawn(link: &str) -> String {
+    let request = Request::get(link).header(header::ACCEPT, "image/svg+xml").body(Body::empty());
+    SERVICE.runtime.block_on(async {
+        let response = SERVICE.router.clone().call(request.expect("a request")).await.expect("infallible");
+        assert_eq!(response.status(), StatusCode::OK, "{link}");
+        let body = response.into_body().collect().await.expect("a body").to_bytes();
+        String::from_utf8(body.to_vec()).expect("text")
+    })
+}
+
 /// The answer to a POST, which has to succeed.
 pub(crate) fn post(path: &str, body: &Value) -> Value {
     let request = Request::post(path)

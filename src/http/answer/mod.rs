@@ -4,6 +4,7 @@
 mod columns;
 mod json;
 mod output;
+pub(crate) mod picture;
 mod table;
 mod text;
 mod work;
@@ -16,7 +17,7 @@ pub(crate) use work::{Over, Subject, Work};
 use crate::http::app::App;
 use crate::http::compute::admission::Turn;
 use crate::http::edge::{Asked, Deadline};
-use crate::http::negotiate::{Format, Tabular, VARY};
+use crate::http::negotiate::{Drawable, Format, Tabular, VARY};
 use crate::http::problem::Problem;
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -39,8 +40,26 @@ impl FromRequestParts<App> for Call {
 
     async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Problem> {
         let Tabular(format) = Tabular::from_request_parts(parts, app).await?;
+        Ok(Self::of(parts, app, format).await)
+    }
+}
+
+impl Call {
+    async fn of(parts: &mut Parts, app: &App, format: Format) -> Self {
         let Ok(deadline) = Deadline::from_request_parts(parts, app).await;
-        Ok(Self { app: app.clone(), format, deadline })
+        Self { app: app.clone(), format, deadline }
+    }
+}
+
+/// The same for an answer that can be drawn too.
+pub(crate) struct DrawableCall(pub(crate) Call);
+
+impl FromRequestParts<App> for DrawableCall {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Problem> {
+        let Drawable(format) = Drawable::from_request_parts(parts, app).await?;
+        Ok(Self(Call::of(parts, app, format).await))
     }
 }
 

@@ -4,7 +4,7 @@ use super::radiance::OutputWire;
 use super::responses::{GetProblems, PostProblems};
 use super::scene::CheckedScene;
 use super::sweep::CheckedSweep;
-use crate::http::answer::{self, Call, Over, Subject, Work};
+use crate::http::answer::{self, Call, DrawableCall, Over, Subject, Work};
 use crate::http::body::JsonBody;
 use crate::http::compute::admission::Turn;
 use crate::http::encode::rows::Binary;
@@ -13,6 +13,7 @@ use crate::http::input::object::object;
 use crate::http::input::query::Query;
 use crate::http::input::wire::named;
 use crate::http::link::{Known, key, linked};
+use crate::http::plot::{Form, Options, Picture, PlotWire};
 use crate::http::problem::Problem;
 use crate::reflectance::evaluate::Quantity;
 use axum::response::Response;
@@ -29,6 +30,8 @@ object! {
         quantity: Option<Quantity>,
         /// What to add.
         output: Option<OutputWire>,
+        /// How it is drawn, where it is answered as a picture.
+        plot: Option<PlotWire>,
         ..sweep: CheckedSweep,
         ..scene: CheckedScene,
     }
@@ -46,7 +49,7 @@ impl Hash for DiagramRequest {
 /// A tabulated diagram, as a link.
 ///
 /// The fields of the POST request, flattened into the query: `medium=perfect_conductor` or `n` and `k`,
-/// `at_deg=10,30,45,60`. The answer is a function of the link alone and carries a strong entity tag.
+/// `at_deg=10,30,45,60`. As `image/svg+xml` or `image/png` it is drawn. The answer is a function of the link alone and carries a strong entity tag.
 #[utoipa::path(
     get,
     path = "/v1/diagrams",
@@ -57,19 +60,21 @@ impl Hash for DiagramRequest {
             (Diagram = "application/json"),
             (String = "text/csv"),
             (Binary = "application/vnd.apache.arrow.stream"),
-            (Binary = "application/x-npy")
+            (Binary = "application/x-npy"),
+            (String = "image/svg+xml"),
+            (Binary = "image/png")
         )),
         (status = 304, description = "The client has this answer already."),
         GetProblems
     )
 )]
 pub(crate) async fn link(
-    call: Call,
+    DrawableCall(call): DrawableCall,
     known: Known,
     Query(request): Query<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    let key = key(&("/v1/diagrams", call.format.media_type(), &request));
-    linked(&known, &key, draw(call, None, request)).await
+    let key = key(&("/v1/diagrams", call.format.media_type(), drawn(&call, &request), &request));
+    linked(&known, &key, answer(call, None, request)).await
 }
 
 /// A tabulated diagram.
@@ -83,20 +88,29 @@ pub(crate) async fn link(
             (Diagram = "application/json"),
             (String = "text/csv"),
             (Binary = "application/vnd.apache.arrow.stream"),
-            (Binary = "application/x-npy")
+            (Binary = "application/x-npy"),
+            (String = "image/svg+xml"),
+            (Binary = "image/png")
         )),
         PostProblems
     )
 )]
 pub(crate) async fn diagram(
-    call: Call,
+    DrawableCall(call): DrawableCall,
     JsonBody { value: request, turn }: JsonBody<DiagramRequest>,
 ) -> Result<Response, Problem> {
-    draw(call, turn, request).await
+    answer(call, turn, request).await
 }
 
-async fn draw(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result<Response, Problem> {
-    let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene } = request;
+/// Whether and how it is to be drawn.
+fn drawn(call: &Call, request: &DiagramRequest) -> Option<(Picture, Options)> {
+    let options = || Options::of(request.plot.as_ref(), Form::Cartesian);
+    call.format.picture().map(|picture| (picture, options()))
+}
+
+async fn answer(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result<Response, Problem> {
+    let drawn = drawn(&call, &request);
+    let DiagramRequest { quantity, output, sweep: CheckedSweep(sweep), scene, .. } = request;
     let CheckedScene { scene, light } = scene;
     let angles = OutputWire::angles(output.as_ref());
     let subject = Subject::Scene {
@@ -107,5 +121,8 @@ async fn draw(call: Call, turn: Option<Turn>, request: DiagramRequest) -> Result
     };
     let mut work = Work::new(subject, Over::Sweep(Box::new(sweep)));
     work.has_angles = angles.unwrap_or(true);
-    answer::respond(call, turn, work).await
+    match drawn {
+        Some(how) => answer::picture::respond(call, turn, work, how).await,
+        None => answer::respond(call, turn, work).await,
+    }
 }

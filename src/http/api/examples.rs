@@ -75,7 +75,7 @@ const FIXED_VIEW_DIAGRAM: &str = r#"{"model": "torrance_sparrow",
  "surface": {"facet_slope_deg": 8, "medium": {"n": 1.5, "k": 0}},
  "illumination": {"irradiance": 1},
  "sweep": "theta_i_deg", "from_deg": -85, "to_deg": 85, "points": 35, "at_deg": [0, 45],
- "output": {"log10": true}}"#;
+ "output": {"log10": true}, "plot": {"form": "polar", "scale": "log10", "decades": 4, "theme": "dark"}}"#;
 
 const FIXED_SOURCE: &str = r#"{"model": "fixed_source", "C_dl": 0.2, "C_sl": 0.5, "C_ss": 4,
  "facet_slope_deg": 6, "spike": {"shape": "gaussian", "width_deg": 0.5},
@@ -134,7 +134,12 @@ pub(crate) const BODIES: &[Example] = &[
     example("/v1/tradeoff", "rough_conductor", "Every method on four directions of a rough conductor", FIRST),
     example("/v1/tradeoff", "camera", "The same trade with a spike beside the lobe", CAMERA),
     example("/v1/diagrams", "fixed_source", "BRDF over the viewing angle for four sources", DIAGRAM),
-    example("/v1/diagrams", "fixed_view", "Radiance over the source angle for two views", FIXED_VIEW_DIAGRAM),
+    example(
+        "/v1/diagrams",
+        "fixed_view",
+        "Radiance over the source angle for two views, dark and polar where it is drawn",
+        FIXED_VIEW_DIAGRAM,
+    ),
     example("/v1/image-irradiance", "camera", "What a pixel receives from aluminium, (51)", CAMERA),
     example("/v1/image-irradiance", "fixed_source", "The linear model (74) about its spike", FIXED_SOURCE),
     example(
@@ -177,7 +182,13 @@ pub(crate) const LINKS: &[Link] = &[
             ("to_deg", "80"),
             ("step_deg", "5"),
             ("at_deg", "[10, 30, 45, 60]"),
+            ("scale", "\"log10\""),
+            ("width_px", "600"),
         ],
+    },
+    Link {
+        path: "/v1/figures/{id}",
+        values: &[("form", "\"polar\""), ("scale", "\"log10\""), ("decades", "4"), ("theme", "\"dark\"")],
     },
 ];
 

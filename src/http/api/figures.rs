@@ -2,20 +2,22 @@
 
 use super::figure_links::links;
 use super::responses::{GetProblems, list};
+use crate::http::app::App;
 use crate::http::compute;
 use crate::http::edge::Deadline;
-use crate::http::encode::rows::Binary;
+use crate::http::encode::rows::{Binary, RowFormat};
 use crate::http::encode::table::Diagram;
 use crate::http::encode::{flat, json};
 use crate::http::input::object::object;
 use crate::http::input::query::{NoQuery, Query};
 use crate::http::link::{Known, linked};
-use crate::http::negotiate::{Format, JsonOnly, Tabular};
+use crate::http::negotiate::{Drawable, Format, JsonOnly};
+use crate::http::plot::{self, Form, Options, Picture, PlotWire, Scale};
 use crate::http::problem::{Kind, Problem};
 use crate::reflectance::figures::{FIGURES, Figure, find};
 use crate::reflectance::quantity::OutOfBounds;
-use axum::extract::Path;
 use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
 use axum::http::header;
 use axum::response::{IntoResponse as _, Response};
 use serde::Serialize;
@@ -76,6 +78,8 @@ object! {
     FigureQuery as "FigureQuery" {
         /// Adds the decimal logarithm of every value. False when absent.
         log10: Option<bool>,
+        /// How it is drawn, where it is answered as a picture.
+        plot: Option<PlotWire>,
     }
 }
 
@@ -126,7 +130,9 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
             (FigureAnswer = "application/json"),
             (String = "text/csv"),
             (Binary = "application/vnd.apache.arrow.stream"),
-            (Binary = "application/x-npy")
+            (Binary = "application/x-npy"),
+            (String = "image/svg+xml"),
+            (Binary = "image/png")
         )),
         (status = 304, description = "The client has this answer already."),
         NoFigure,
@@ -134,7 +140,8 @@ pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Respo
     )
 )]
 pub(crate) async fn figure(
-    Tabular(format): Tabular,
+    State(app): State<App>,
+    Drawable(format): Drawable,
     known: Known,
     deadline: Deadline,
     id: Result<Path<String>, PathRejection>,
@@ -142,13 +149,41 @@ pub(crate) async fn figure(
 ) -> Result<Response, Problem> {
     // An id that is not UTF-8 is the id of no figure.
     let figure = id.ok().and_then(|Path(id)| find(&id)).ok_or_else(no_figure)?;
-    let log10 = query.log10.unwrap_or(false);
-    linked(&known, &("/v1/figures", figure.id, format.media_type(), log10), async {
+    let answer = Answer::of(format, figure, &query);
+    linked(&known, &("/v1/figures", figure.id, format.media_type(), answer), async {
+        // Pixels take memory: no more are drawn at a time than there is large work.
+        let _turn = if let Answer::Drawn(..) = answer { Some(app.admission().turn().await?) } else { None };
         // Every figure has hundreds of directions at least: none is worth holding up connections for.
-        let body = compute::blocking(deadline, move || draw(figure, format, log10)).await??;
+        let body = compute::blocking(deadline, move || make(figure, answer)).await??;
         Ok(([(header::CONTENT_TYPE, format.content_type())], body).into_response())
     })
     .await
+}
+
+/// What is made of a figure.
+#[derive(Clone, Copy, Hash)]
+enum Answer {
+    Rows { format: Option<RowFormat>, log10: bool },
+    Drawn(Picture, Options),
+}
+
+impl Answer {
+    fn of(format: Format, figure: &Figure, query: &FigureQuery) -> Self {
+        match format.picture() {
+            Some(picture) => {
+                let form = if figure.is_polar() { Form::Polar } else { Form::Cartesian };
+                Self::Drawn(picture, Options::of(query.plot.as_ref(), form))
+            }
+            None => Self::Rows { format: format.row_format(), log10: query.log10.unwrap_or(false) },
+        }
+    }
+
+    fn has_logarithms(self) -> bool {
+        match self {
+            Self::Rows { log10, .. } => log10,
+            Self::Drawn(_, options) => options.scale == Scale::Log10,
+        }
+    }
 }
 
 fn no_figure() -> Problem {
@@ -161,17 +196,24 @@ fn broken(figure: &Figure, error: OutOfBounds) -> Problem {
     Problem::internal()
 }
 
-fn draw(figure: &'static Figure, format: Format, log10: bool) -> Result<Vec<u8>, Problem> {
-    let panels = figure.evaluate(log10).map_err(|error| broken(figure, error))?;
-    if let Some(rows) = format.row_format() {
-        let tables: Vec<_> = panels.into_iter().map(|panel| panel.table).collect();
-        return flat::write(rows, &tables, true);
+fn make(figure: &'static Figure, answer: Answer) -> Result<Vec<u8>, Problem> {
+    let panels = figure.evaluate(answer.has_logarithms()).map_err(|error| broken(figure, error))?;
+    match answer {
+        Answer::Drawn(picture, options) => {
+            plot::draw(&plot::of_figure(figure, &panels, &options), picture, &options)
+        }
+        Answer::Rows { format: Some(rows), .. } => {
+            let tables: Vec<_> = panels.into_iter().map(|panel| panel.table).collect();
+            flat::write(rows, &tables, true)
+        }
+        Answer::Rows { format: None, .. } => {
+            let panels: Vec<Panel> = panels
+                .into_iter()
+                .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
+                .collect();
+            let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
+            let Figure { id, title, parameters, .. } = *figure;
+            json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
+        }
     }
-    let panels: Vec<Panel> = panels
-        .into_iter()
-        .map(|panel| Panel { label: panel.label, diagram: Diagram::new(panel.table, true) })
-        .collect();
-    let size_hint = panels.iter().map(|panel| panel.diagram.size_hint()).sum();
-    let Figure { id, title, parameters, .. } = *figure;
-    json::bytes(&FigureAnswer { id, title, parameters, panels }, size_hint)
 }

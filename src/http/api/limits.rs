@@ -13,6 +13,7 @@ use crate::http::input::object::{WireObject, prose};
 use crate::http::input::query::{MOST_PARAMETERS, NoQuery};
 use crate::http::link::{Known, configured};
 use crate::http::negotiate::{Format, JsonOnly};
+use crate::http::plot::{MOST_CURVES, MOST_PIXELS};
 use crate::http::problem::{Kind, Problem};
 use crate::reflectance::bounds::{MAX_AVERAGED, MAX_CURVES, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS};
 use axum::extract::State;
@@ -264,6 +265,14 @@ fn list(limits: &Limits) -> LimitList {
             invalid,
         ),
         Limit::fixed("fixed_angles", MAX_CURVES, "angles", "Most fixed angles of one diagram", invalid),
+        Limit::fixed(
+            "picture_series",
+            MOST_CURVES,
+            "series",
+            "Most fixed angles times wavelengths of one diagram that is drawn",
+            invalid,
+        ),
+        Limit::fixed("picture_pixels", MOST_PIXELS, "pixels", "Most width and height of a picture", invalid),
         Limit::fixed(
             "averaged_sources",
             MAX_AVERAGED,

@@ -94,8 +94,8 @@ pub(crate) fn columns(format: Format, bytes: &[u8], reader: &mut Reader) -> Resu
         Format::Csv => csv::columns(bytes, most, &mut notes),
         Format::Arrow => arrow::columns(bytes, most, &mut notes),
         Format::Npy => npy::columns(bytes, most, &mut notes),
-        // The only body that is not of columns is read elsewhere.
-        Format::Json => Err("it is JSON".to_owned()),
+        // A body that is not of columns is read elsewhere, and none is a picture.
+        Format::Json | Format::Picture(_) => Err("it has no columns".to_owned()),
     };
     columns.map(Columns).map_err(|detail| {
         let media_type = format.media_type();

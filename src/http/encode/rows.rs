@@ -59,7 +59,7 @@ pub(crate) struct Rows<'a> {
 }
 
 /// A way to write tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum RowFormat {
     Csv,
     Arrow,
