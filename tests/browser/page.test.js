@@ -39,18 +39,11 @@ test("the first picture is the service's answer", async () => {
   assert.ok((await hint.textContent()).endsWith("From 10⁻⁶⁰ to 10⁶⁰ µm."));
   assert.equal(await page.locator('[data-field="rms_height_um"]').getAttribute("title"), description);
   assert.ok(await hint.isVisible());
-  await close();
-});
-
-test("every field of a diagram has a control", async () => {
-  const { page, close } = await open(browser, service.url);
-  const document = await ask(`${service.url}/openapi.json`);
+  // And no field of a diagram is without a control; `form` is the choice between curves and polar.
   const names = document.paths["/v1/diagrams"].get.parameters.map(({ name }) => name);
   const controls = await page.$$eval("[data-field]", (fields) => fields.map((field) => field.dataset.field));
-  assert.deepEqual(
-    names.filter((name) => !controls.includes(name)),
-    [],
-  );
+  const above = await page.$$eval("#options input", (inputs) => inputs.map(({ name, id }) => name || id));
+  assert.deepEqual(names.filter((name) => !controls.includes(name) && !above.includes(name) && name !== "form"), []);
   await close();
 });
 
@@ -224,23 +217,28 @@ test("the tolerance shows what it changes", async () => {
   await close();
 });
 
-test("data come as files", async () => {
+/** What a button saves. */
+async function saved(page, format) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-format="${format}"]`)]);
+  return readFile(await download.path());
+}
+
+test("data and pictures come as files", async () => {
   const { page, close } = await open(browser, service.url);
+  const fetched = async (link, accept) => Buffer.from(await (await fetch(link, { headers: { accept } })).arrayBuffer());
+  const link = await request(page);
   for (const [format, accept] of [
     ["csv", "text/csv"],
     ["arrow", "application/vnd.apache.arrow.stream"],
     ["json", "application/json"],
   ]) {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-format="${format}"]`)]);
-    const expected = await fetch(await request(page), { headers: { accept } });
-    assert.deepEqual(await readFile(await download.path()), Buffer.from(await expected.arrayBuffer()), format);
+    assert.deepEqual(await saved(page, format), await fetched(link, accept), format);
   }
-  for (const [format, start] of [
-    ["svg", "<svg"],
-    ["png", "\x89PNG"],
-  ]) {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-format="${format}"]`)]);
-    assert.ok((await readFile(await download.path(), "latin1")).startsWith(start), format);
-  }
+  // Pictures of diagrams are the service's own, others are of the plot.
+  const picture = `${link}&form=cartesian&scale=linear&theme=light`;
+  assert.deepEqual(await saved(page, "svg"), await fetched(picture, "image/svg+xml"));
+  await drawing(page, () => page.check('input[name="plot"][value="hemisphere"]', { force: true }));
+  assert.match((await saved(page, "svg")).toString(), /^<svg/);
+  assert.match((await saved(page, "png")).toString("latin1"), /^\x89PNG/);
   await close();
 });

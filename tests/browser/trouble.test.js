@@ -75,15 +75,16 @@ test("a slider that moves fast asks seldom, and ends where it is", async () => {
   page.on("request", (sent) => {
     asked += sent.url().includes("/v1/diagrams") ? 1 : 0;
   });
-  await page.evaluate(() => {
-    const slider = document.querySelector('[data-field="slope"] input[type="range"]');
-    for (let at = 100; at <= 200; at += 1) {
-      slider.value = String(at);
-      slider.dispatchEvent(new Event("input", { bubbles: true }));
-    }
-    slider.dispatchEvent(new Event("change", { bubbles: true }));
-  });
-  await drawing(page, () => {});
+  await drawing(page, () =>
+    page.evaluate(() => {
+      const slider = document.querySelector('[data-field="slope"] input[type="range"]');
+      for (let at = 100; at <= 200; at += 1) {
+        slider.value = String(at);
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+      }
+      slider.dispatchEvent(new Event("change", { bubbles: true }));
+    }),
+  );
   await page.waitForTimeout(300);
   assert.ok(asked <= 2, `${asked} requests`);
   assert.deepEqual(await total(page), (await ask(await request(page))).series[0].total);

@@ -77,12 +77,12 @@ function options() {
     else state[name] = document.querySelector(`input[name="${name}"]`).value;
   }
   const count = Math.max(1, list(state.at_deg).length) * Math.max(1, list(state.wavelength_um).length);
-  $("parts").checked = (state.curves || natural(count)) !== "total";
+  $("curves").checked = (state.curves || natural(count)) !== "total";
   const isCurve = ["curve", "polar"].includes(state.plot);
   // A figure is curves; another plot is of the scene behind it.
   if (!isCurve) delete state.figure;
   presets.show(state);
-  $("parts").closest("label").hidden = !isCurve;
+  $("curves").closest("label").hidden = !isCurve;
   document.querySelector('fieldset:has([name="scale"])').hidden = state.plot === "tradeoff";
   for (const button of document.querySelectorAll("[data-format]")) button.disabled = !has(state, button.dataset.format);
   texts();
@@ -208,7 +208,7 @@ function wire() {
   document
     .querySelectorAll('input[name="plot"], input[name="scale"]')
     .forEach((radio) => radio.addEventListener("change", () => change({ ...state, [radio.name]: radio.value }, true)));
-  $("parts").addEventListener("change", () => change({ ...state, curves: $("parts").checked ? "all" : "total" }, true));
+  $("curves").addEventListener("change", () => change({ ...state, curves: $("curves").checked ? "all" : "total" }, true));
   presets.wire();
   $("whole").addEventListener("click", () => {
     whole = !whole;
