@@ -234,6 +234,7 @@ fn with(height: f64, tolerance: f64, method: Method, change: impl FnOnce(&mut Sc
             polarization: Polarization::unpolarized(),
         },
         sensor: None,
+        receiver: None,
         components: Components::Named(vec![Component::SpecularLobe]),
         accuracy: Accuracy { relative_tolerance: in_range(tolerance), method },
     };

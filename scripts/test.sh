@@ -27,10 +27,12 @@ cargo check --lib --no-default-features
 step "lints"
 cargo clippy --all-targets -- -D warnings
 step "the release binary"
-cargo build --release
+# Static, as in the container: built once, and what everything below runs.
+REFLECTANCE_RELEASE=$(scripts/static.sh --bin reflectance --example floors)
+export REFLECTANCE_RELEASE
 step "tests"
 # The faults are the release binary's: what it does with memory and time is what counts.
-export REFLECTANCE_BINARY=$PWD/target/release/reflectance
+export REFLECTANCE_BINARY=$REFLECTANCE_RELEASE/reflectance
 cargo test --no-fail-fast 2>&1 | tee -a "$log"
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
@@ -48,6 +50,13 @@ passes
 step "a minute at half load"
 scripts/soak.sh 60
 passes
+step "three replicas behind a balancer: one killed, all restarted"
+scripts/replicas.sh
+passes
+step "examples and generated clients"
+scripts/clients.sh | tee -a "$log"
+step "the container"
+scripts/container.sh --binary "$REFLECTANCE_BINARY" | tee -a "$log"
 
 awk '/^test result:/ { passed += $4; failed += $6; ignored += $8 }
      END { printf "\n%d passed, %d failed, %d skipped\n", passed, failed, ignored; exit failed > 0 || passed == 0 }' "$log"

@@ -42,6 +42,7 @@ pub(crate) fn lobe(roughness: RelativeRoughness, accuracy: Accuracy) -> Scene {
             polarization: Polarization::unpolarized(),
         },
         sensor: None,
+        receiver: None,
         components: Components::Named(vec![Component::SpecularLobe]),
         accuracy,
     })

@@ -68,6 +68,7 @@ pub(crate) fn scene() -> Result<Scene, Failure> {
             polarization: Polarization::unpolarized(),
         },
         sensor: None,
+        receiver: None,
         components: Components::Named(vec![Component::SpecularLobe]),
         accuracy: Accuracy { relative_tolerance: Quantity::new(1e-9)?, method: Method::Auto },
     })

@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "target" / "load"
-RELEASE = ROOT / "target" / "release"
+RELEASE = Path(os.environ.get("REFLECTANCE_RELEASE", ROOT / "target" / "release"))
 
 # The service as it runs in production: every request logged as JSON, to a file. All else is on by default.
 PRODUCTION = ["--listen", "127.0.0.1:0", "--log-format", "json"]

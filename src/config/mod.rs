@@ -27,10 +27,24 @@ pub struct Cli {
 }
 
 /// Something to do instead of serving.
-#[derive(Clone, Copy, Debug, Subcommand)]
+#[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Print the `OpenAPI` document and exit
     Openapi,
+    /// Ask a running service whether it is ready: exit code 0 if it is, 1 if not
+    Health(Probe),
+}
+
+/// Whom to ask, and for how long.
+#[derive(Clone, Debug, Args)]
+pub struct Probe {
+    /// Base URL of the service; when absent, the address of --listen or `REFLECTANCE_LISTEN` on this machine, by HTTPS if
+    /// there is a certificate. No certificate is checked
+    #[arg(long, value_name = "URL", value_parser = values::base_url)]
+    pub url: Option<axum::http::Uri>,
+    /// Seconds until no answer is one
+    #[arg(long, default_value = "2", value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
+    pub timeout_seconds: Duration,
 }
 
 /// How the service runs. Every flag has an environment variable; the flag wins.

@@ -75,3 +75,18 @@ pub(super) fn collector(text: &str) -> Result<String, String> {
     let plain = uri.scheme_str() == Some("http") && uri.host().is_some_and(|host| !host.is_empty());
     if plain && uri.query().is_none() { Ok(address.to_owned()) } else { Err(expected()) }
 }
+
+/// Where a service is reached.
+pub(super) fn base_url(text: &str) -> Result<axum::http::Uri, String> {
+    let uri: Option<axum::http::Uri> = text.parse().ok();
+    uri.filter(|uri| {
+        let known = matches!(uri.scheme_str(), Some("http" | "https"));
+        let host =
+            uri.authority().is_some_and(|host| !host.host().is_empty() && !host.as_str().contains('@'));
+        known && host && uri.query().is_none()
+    })
+    .ok_or_else(|| {
+        "expected http://host:port or https://host:port, with a path before /readyz if there is one"
+            .to_owned()
+    })
+}

@@ -20,7 +20,7 @@ mod routes;
 mod transport;
 
 pub use openapi::openapi_json;
-pub use transport::{Service, Signals};
+pub use transport::run;
 
 use crate::config::Config;
 use app::App;
@@ -39,7 +39,7 @@ fn service(app: &App) -> Edge {
 }
 
 /// What the program says when it is ready.
-pub fn greeting(scheme: &str, address: SocketAddr) -> String {
+fn greeting(scheme: &str, address: SocketAddr) -> String {
     format!(
         "reflectance {version} on {scheme}://{address}/  (reference: {scheme}://{address}/docs)\n\
          Try: curl -s {scheme}://{address}/v1/radiance -H 'content-type: application/json' -d '{body}'\n",

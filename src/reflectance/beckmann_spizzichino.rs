@@ -54,6 +54,15 @@ impl RelativeRoughness {
         root * root
     }
 
+    /// tan α of about the width of the lobe of (47): the facets' slope, or what a patch of the size T diffracts.
+    pub(super) fn facet_width(&self, cos_i: f64) -> f64 {
+        let slope = 2.0 * self.height / self.correlation_length;
+        let wave = 2.0 * PI * self.correlation_length;
+        // v_xy T = 2 with v_xy = 2k cos θ′ sin α, and cos θ′ ≥ sin α near a grazing source.
+        let diffraction = (1.0 / (wave * cos_i)).min(1.0 / wave.sqrt());
+        slope.max(diffraction)
+    }
+
     /// The specular lobe of (47) over the irradiance, per steradian, and the method that made S.
     ///
     /// `over_cosines` takes the place of 1/cos θ_r: G/cos θ_r for a shadowed radiance, and divided by

@@ -7,6 +7,7 @@
 use super::evaluate::EvaluatedBy;
 use super::fresnel::Medium;
 use super::numeric::lobe_series::Method;
+use super::receiver::viewers;
 use super::scene::{Component, Model, Scene};
 
 /// Angles to geometry, the sum of the components and its bound, direction by direction
@@ -62,6 +63,8 @@ impl Lobe {
     fn cost(self, asked: Method) -> f64 {
         match (self.by, asked) {
             (EvaluatedBy::ClosedForm, _) => 0.0,
+            // One viewer's.
+            (EvaluatedBy::ConeQuadrature, _) => SADDLE,
             (EvaluatedBy::Lobe(Method::Series), Method::Auto) => LANE_SUM + LANE_TERM * self.terms(),
             (EvaluatedBy::Lobe(Method::Uniform), Method::Auto) => SADDLE,
             (EvaluatedBy::Lobe(_), Method::Auto) => CLOSED,
@@ -76,8 +79,17 @@ impl Lobe {
     }
 }
 
-/// The cost of these components in one direction.
+/// The cost of these components in one direction: of a receiver of finite size the mean over its cone.
 pub(super) fn direction(scene: &Scene, components: &[Component], lobe: Option<Lobe>) -> f64 {
+    let viewer = of_viewer(scene, components, lobe);
+    match scene.parameters().receiver {
+        Some(half_angle) if components.contains(&Component::SpecularLobe) => viewers(half_angle) * viewer,
+        _ => viewer,
+    }
+}
+
+/// The cost of these components for one viewer.
+fn of_viewer(scene: &Scene, components: &[Component], lobe: Option<Lobe>) -> f64 {
     let p = scene.parameters();
     let height_lobe = p.model == Model::BeckmannSpizzichino;
     let in_lanes = !components.contains(&Component::SpecularSpike)

@@ -7,6 +7,7 @@ use super::findings::{Diagnostic, Omitted, Warning};
 use super::fresnel_average::table::SlopeAverages;
 use super::kernel::Kernel;
 use super::numeric::lobe_series::lanes::LANES;
+use super::receiver::Receiver;
 use super::requirement::Requirement;
 use super::scene::{Component, Scene};
 use super::strain;
@@ -62,6 +63,8 @@ const PART: usize = 8 * LANES;
 #[derive(Debug)]
 pub struct Prepared {
     scene: Scene,
+    /// Where viewers are not points.
+    receiver: Option<Receiver>,
     quantity: Quantity,
     output: Output,
     share: f64,
@@ -96,8 +99,19 @@ impl Prepared {
     ) -> Self {
         let Requirement { evaluated, omitted, share, extents } = requirement;
         let needed = scene.with_only(&evaluated);
+        let receiver = Receiver::of(&needed, share);
         let averages = SlopeAverages::of(&needed, directions, is_over);
-        Self { scene: needed, quantity, output, share, averages, omitted, extents, asked: scene.clone() }
+        Self {
+            scene: needed,
+            receiver,
+            quantity,
+            output,
+            share,
+            averages,
+            omitted,
+            extents,
+            asked: scene.clone(),
+        }
     }
 
     /// What is asked for.
@@ -133,16 +147,37 @@ impl Prepared {
         range: Range<usize>,
         is_over: impl Fn() -> bool,
     ) -> Stretch {
-        let kernel = Kernel::new(&self.scene, self.quantity, self.share, &self.averages);
+        let kernel = self.kernel();
         let mut answer = self.room(range.start, range.len());
         for first in range.clone().step_by(PART) {
             if is_over() {
                 break;
             }
-            let part = first..range.end.min(first + PART);
-            Block::lent(|block| block.evaluate(&kernel, directions, part, &mut answer));
+            self.part(&kernel, directions, first..range.end.min(first + PART), &mut answer, &is_over);
         }
         answer
+    }
+
+    fn kernel(&self) -> Kernel<'_> {
+        match &self.receiver {
+            Some(receiver) => Kernel::new(receiver.scene(), self.quantity, 0.0, &self.averages),
+            None => Kernel::new(&self.scene, self.quantity, self.share, &self.averages),
+        }
+    }
+
+    /// Adds some directions to an answer.
+    fn part(
+        &self,
+        kernel: &Kernel<'_>,
+        directions: &Directions,
+        range: Range<usize>,
+        answer: &mut Stretch,
+        is_over: impl Fn() -> bool,
+    ) {
+        match &self.receiver {
+            Some(receiver) => receiver.evaluate(kernel, directions, range, answer, is_over),
+            None => Block::lent(|block| block.evaluate(kernel, directions, range, answer)),
+        }
     }
 
     fn room(&self, first: usize, count: usize) -> Stretch {
@@ -158,11 +193,11 @@ impl Prepared {
             return self.finish(whole, directions);
         }
         let mut whole = self.room(0, count);
-        let kernel = Kernel::new(&self.scene, self.quantity, self.share, &self.averages);
+        let kernel = self.kernel();
         let part = |first: usize| {
             let end = count.min(first + PART);
             let mut answer = self.room(first, end - first);
-            Block::lent(|block| block.evaluate(&kernel, directions, first..end, &mut answer));
+            self.part(&kernel, directions, first..end, &mut answer, || false);
             answer
         };
         // A few parts a thread at a time, so that what is not yet in its place stays small.

@@ -27,6 +27,7 @@ pub(super) fn beckmann_spizzichino(
         },
         illumination: light(Some(Wavelength::new(lambda)?))?,
         sensor: Some(sensor()?),
+        receiver: None,
         components: Components::Named(components.to_vec()),
         accuracy: Accuracy { relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?, method },
     }))
@@ -48,6 +49,7 @@ pub(super) fn torrance_sparrow(
         },
         illumination: light(None)?,
         sensor: None,
+        receiver: None,
         components: Components::Named(vec![Component::SpecularLobe]),
         accuracy: Accuracy { relative_tolerance: Tolerance::new(DEFAULT_TOLERANCE)?, method: Method::Auto },
     }))
@@ -103,6 +105,7 @@ pub(super) mod components_of_section_5 {
                 ..bare()?
             },
             illumination: light(Some(Wavelength::new(0.5)?))?,
+            receiver: None,
             sensor: Some(Sensor::Patch {
                 footprint: Area::new(16.0)?,
                 half_x: Length::new(2.0)?,

@@ -65,17 +65,20 @@ pub enum EvaluatedBy {
     ClosedForm,
     /// The lobe series, by this method (never `auto`).
     Lobe(Method),
+    /// The lobe's mean over the cone of a receiver.
+    ConeQuadrature,
 }
 
 impl EvaluatedBy {
     /// Every possibility, in the order in which they are counted.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::ClosedForm,
         Self::Lobe(Method::Series),
         Self::Lobe(Method::Paper),
         Self::Lobe(Method::Uniform),
         Self::Lobe(Method::Smooth),
         Self::Lobe(Method::Rough),
+        Self::ConeQuadrature,
     ];
 
     /// Its place among all.
@@ -88,6 +91,7 @@ impl EvaluatedBy {
             Self::Lobe(Method::Uniform) => 3,
             Self::Lobe(Method::Smooth) => 4,
             Self::Lobe(Method::Rough) => 5,
+            Self::ConeQuadrature => 6,
         }
     }
 
@@ -96,6 +100,7 @@ impl EvaluatedBy {
         match self {
             Self::ClosedForm => "closed_form",
             Self::Lobe(method) => method.name(),
+            Self::ConeQuadrature => "cone_quadrature",
         }
     }
 }
@@ -230,41 +235,72 @@ impl<'a> Kernel<'a> {
     fn reflect_by(&self, geometry: &Geometry, series: Option<&LobeSeries>) -> Reflection {
         let mut components = [None; 3];
         let mut evaluated_by = EvaluatedBy::ClosedForm;
-        let of_lobe = || match self.reflectivity.medium {
-            Medium::PerfectConductor => None,
-            Medium::Index(_) => Some(self.reflectivity.energy(geometry).into()),
-        };
         for &component in self.scene.evaluated() {
-            let value = match component {
+            components[component.index()] = match component {
                 Component::DiffuseLobe => Some(self.diffuse_lobe(geometry)),
-                Component::SpecularLobe if self.scene.parameters().model == Model::BeckmannSpizzichino => {
-                    self.roughness.map(|roughness| {
-                        let over = self.shadowing_over_cosines(geometry);
-                        let (lobe, method) = match series {
-                            Some(series) => (roughness.lobe_of(geometry, over, series), series.method),
-                            None => roughness.lobe(geometry, over, self.method),
-                        };
-                        evaluated_by = EvaluatedBy::Lobe(method);
-                        self.with_reflectance(self.with_shadowing_error(lobe), of_lobe())
-                    })
-                }
-                Component::SpecularLobe => self.facet_lobe(geometry, of_lobe()),
-                Component::SpecularSpike => self.spike(geometry),
-            };
-            components[component.index()] = match self.quantity {
-                Quantity::ImageIrradiance { factor } => {
-                    // Nine roundings at most make the factor of (51).
-                    let factor = Estimate::within(Scaled::new(factor), 12.0 * EPSILON);
-                    value.map(|radiance| radiance.times(factor))
-                }
-                Quantity::Radiance | Quantity::Brdf => value,
+                Component::SpecularLobe => self.specular_lobe(geometry, series).map(|(lobe, by)| {
+                    evaluated_by = by;
+                    lobe
+                }),
+                Component::SpecularSpike => self.spike(geometry).map(|spike| self.imaged(spike)),
             };
         }
         Reflection { total: Estimate::total(&components), components, evaluated_by }
     }
 
+    /// The specular lobe from a value of S that is good enough for the tolerance in most directions, else from the best.
+    pub(super) fn lobe(&self, geometry: &Geometry, series: Option<LobeSeries>) -> Option<Estimate> {
+        if let Some(series) = series {
+            let (lobe, _) = self.specular_lobe(geometry, Some(&series))?;
+            if lobe.relative_error() <= self.tolerance || self.is_at_its_best() {
+                return Some(lobe);
+            }
+        }
+        self.specular_lobe(geometry, None).map(|(lobe, _)| lobe)
+    }
+
+    /// The specular lobe, and what evaluated it.
+    fn specular_lobe(
+        &self,
+        geometry: &Geometry,
+        series: Option<&LobeSeries>,
+    ) -> Option<(Estimate, EvaluatedBy)> {
+        let reflectance = match self.reflectivity.medium {
+            Medium::PerfectConductor => None,
+            Medium::Index(_) => Some(self.reflectivity.energy(geometry).into()),
+        };
+        if self.scene.parameters().model != Model::BeckmannSpizzichino {
+            let lobe = self.facet_lobe(geometry, reflectance)?;
+            return Some((self.imaged(lobe), EvaluatedBy::ClosedForm));
+        }
+        let roughness = self.roughness?;
+        let over = self.shadowing_over_cosines(geometry);
+        let (lobe, method) = match series {
+            Some(series) => (roughness.lobe_of(geometry, over, series), series.method),
+            None => roughness.lobe(geometry, over, self.method),
+        };
+        let lobe = self.with_reflectance(self.with_shadowing_error(lobe), reflectance);
+        Some((self.imaged(lobe), EvaluatedBy::Lobe(method)))
+    }
+
+    /// (51): a radiance as the image receives it.
+    fn imaged(&self, value: Estimate) -> Estimate {
+        match self.quantity {
+            // Nine roundings at most make the factor.
+            Quantity::ImageIrradiance { factor } => {
+                value.times(Estimate::within(Scaled::new(factor), 12.0 * EPSILON))
+            }
+            Quantity::Radiance | Quantity::Brdf => value,
+        }
+    }
+
+    /// What is evaluated.
+    pub(super) fn quantity(&self) -> Quantity {
+        self.quantity
+    }
+
     /// (57): radiance κ_diff · irradiance · cos θ_i, BRDF κ_diff.
-    fn diffuse_lobe(&self, geometry: &Geometry) -> Estimate {
+    pub(super) fn diffuse_lobe(&self, geometry: &Geometry) -> Estimate {
         let p = self.scene.parameters();
         let (albedo, irradiance) = (p.surface.diffuse_albedo, p.illumination.irradiance);
         let value = match self.quantity {
@@ -273,7 +309,7 @@ impl<'a> Kernel<'a> {
             }
             Quantity::Brdf => lambertian::kappa_diff(albedo),
         };
-        Estimate::within(value, 8.0 * EPSILON)
+        self.imaged(Estimate::within(value, 8.0 * EPSILON))
     }
 
     /// Whether the facets have 1 − e^{−g} of the energy and the spike the rest.

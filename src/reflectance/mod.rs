@@ -33,9 +33,12 @@ pub mod outline;
 pub mod plan;
 pub mod quantity;
 pub mod radiometry;
+mod receiver;
 mod region;
 mod requirement;
 pub mod roughness;
+#[cfg(test)]
+mod samples;
 pub mod scattered_power;
 pub mod scene;
 pub mod shadowing;

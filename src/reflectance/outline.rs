@@ -130,7 +130,8 @@ impl Outline {
             (p.surface.facet_slope.is_none(), Parameter::FacetSlope),
             (p.surface.specular_scale.is_none(), Parameter::SpecularScale),
             (p.illumination.wavelength.is_none(), Parameter::Wavelength),
-            (p.sensor.is_none(), Parameter::Sensor),
+            // A receiver of finite size reads a sharp spike, of whatever patch.
+            (p.sensor.is_none() && p.receiver.is_none(), Parameter::Sensor),
         ];
         Self {
             model: Some(p.model),

@@ -17,6 +17,8 @@ use core::f64::consts::PI;
 
 /// Directions that are looked at one by one.
 pub const MOST_SAMPLED: usize = 1024;
+/// The same of a receiver of finite size, each of whose directions takes as long as a thousand.
+pub const MOST_RECEIVED: usize = 16;
 /// Ranges of one method that are listed.
 pub const MOST_RANGES: usize = 64;
 
@@ -25,7 +27,7 @@ pub const MOST_RANGES: usize = 64;
 pub struct Plan {
     /// N.
     pub directions: usize,
-    /// How many of them were looked at one by one: all up to [`MOST_SAMPLED`], else so many from the first to the last, equally
+    /// How many of them were looked at one by one: all up to [`MOST_SAMPLED`], or [`MOST_RECEIVED`], else so many from the first to the last, equally
     /// spaced.
     pub sampled: usize,
     /// g of (34) is between these in every direction; none for a scene without heights or wavelength.
@@ -81,7 +83,8 @@ impl Plan {
         let requirement = Requirement::of(scene, directions);
         let needed = scene.with_only(&requirement.evaluated);
         let count = directions.count();
-        let indices = sample(count);
+        let most = if scene.parameters().receiver.is_some() { MOST_RECEIVED } else { MOST_SAMPLED };
+        let indices = sample(count, most);
         let sampled = directions.select(&indices);
         let output = Output { log10: false, per_direction: true };
         let evaluation = evaluate_required(scene, &sampled, Quantity::Radiance, output, requirement.clone());
@@ -112,8 +115,8 @@ impl Plan {
 }
 
 /// The directions to look at.
-fn sample(count: usize) -> Vec<usize> {
-    let sampled = count.min(MOST_SAMPLED);
+fn sample(count: usize, most: usize) -> Vec<usize> {
+    let sampled = count.min(most);
     let last = (sampled - 1).max(1);
     (0..sampled).map(|place| place * (count - 1) / last).collect()
 }

@@ -103,6 +103,8 @@ quantities! {
     AveragedRatio in SLOPE_AVERAGED;
     /// γ of figure 10, degrees.
     OffAxis in OFF_AXIS;
+    /// β, degrees: half the angle under which the surface sees a receiver of finite size.
+    ReceiverHalfAngle in RECEIVER_HALF_ANGLE;
     /// n of n − ik.
     IndexN in INDEX_N;
     /// k of n − ik.

@@ -53,7 +53,9 @@ impl Requirement {
             }
         }
         let mut share = 0.0;
+        // The envelopes are those of points: of a cone's mean nothing is left out but what is 0.
         if remaining.len() > 1
+            && scene.parameters().receiver.is_none()
             && let Some(found) = Search::new(scene, directions, &remaining).best()
         {
             for (component, bound) in found.bounds {

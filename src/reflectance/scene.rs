@@ -9,7 +9,7 @@ use super::numeric::lobe_series::Method;
 use super::outline::{Outline, SceneError};
 use super::quantity::{
     Area, CorrelationLength, FacetSlope, Fraction, InvertibleFacetSlope, Irradiance, Length, OffAxis,
-    Quantity as _, RmsHeight, SpecularScale, Tolerance, Wavelength,
+    Quantity as _, ReceiverHalfAngle, RmsHeight, SpecularScale, Tolerance, Wavelength,
 };
 use super::radiometry::Camera;
 use super::roughness::{self, BeckmannWidth, Widths};
@@ -150,6 +150,8 @@ pub struct SceneParameters {
     pub illumination: Illumination,
     /// The sensor, which only the spike needs.
     pub sensor: Option<Sensor>,
+    /// The half angle of the cone of viewers that a receiver takes the mean over; a point when absent.
+    pub receiver: Option<ReceiverHalfAngle>,
     /// The components asked for.
     pub components: Components,
     /// The accuracy asked for.

@@ -108,7 +108,9 @@ impl Stretch {
         self.is_named
             && match by {
                 EvaluatedBy::Lobe(Method::Paper | Method::Uniform | Method::Smooth | Method::Rough) => true,
-                EvaluatedBy::Lobe(Method::Auto | Method::Series) | EvaluatedBy::ClosedForm => false,
+                EvaluatedBy::Lobe(Method::Auto | Method::Series)
+                | EvaluatedBy::ClosedForm
+                | EvaluatedBy::ConeQuadrature => false,
             }
     }
 

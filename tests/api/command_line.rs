@@ -61,7 +61,7 @@ fn the_environment_mirrors_the_flags_and_is_checked_as_well() {
 #[test]
 fn help_and_version_are_there() {
     let help = String::from_utf8(run(&["--help"]).stdout).unwrap();
-    for word in ["--listen", "REFLECTANCE_LISTEN", "127.0.0.1:8080", "openapi"] {
+    for word in ["--listen", "REFLECTANCE_LISTEN", "127.0.0.1:8080", "openapi", "health"] {
         assert!(help.contains(word), "{word}: {help}");
     }
     let version = String::from_utf8(run(&["--version"]).stdout).unwrap();
@@ -87,4 +87,40 @@ fn a_request_leaves_one_line_in_the_log() {
         assert_eq!(line["status"], status);
         assert!(line["microseconds"].is_u64() && line["bytes"].is_u64());
     }
+}
+
+/// Exit code and what was said of `health`, with more arguments.
+fn health(before: &[&str], after: &[&str]) -> (Option<i32>, String) {
+    let output = run(&[before, &["health"], after].concat());
+    assert!(output.stdout.is_empty());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn health_tells_a_service_that_is_ready_from_one_that_is_not() {
+    let mut server = Server::with(&["--drain-delay-seconds", "60"]);
+    let address = server.address().to_owned();
+    assert_eq!(health(&["--listen", &address], &[]), (Some(0), String::new()));
+    assert_eq!(health(&[], &["--url", &server.url]), (Some(0), String::new()));
+    // Where a proxy would serve it.
+    let (code, text) = health(&[], &["--url", &format!("{}/under/", server.url)]);
+    assert!(code == Some(1) && text.contains("/under/readyz: not ready, status 404"), "{text}");
+
+    server.signal("TERM");
+    // The signal is taken within a moment.
+    while server.get("/readyz").status() == 200 {}
+    let (code, text) = health(&["--listen", &address], &[]);
+    assert!(code == Some(1) && text.contains("status 503"), "{text}");
+    server.signal("INT");
+    server.process.wait().unwrap();
+    let (code, text) = health(&["--listen", &address], &[]);
+    assert!(code == Some(1) && text.starts_with("reflectance: ") && text.lines().count() == 1, "{text}");
+}
+
+#[test]
+fn health_does_not_wait_for_a_service_that_says_nothing() {
+    let mute = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = mute.local_addr().unwrap().to_string();
+    let (code, text) = health(&["--listen", &address], &["--timeout-seconds", "0.1"]);
+    assert!(code == Some(1) && text.contains("no answer within 0.1 s"), "{text}");
 }

@@ -2,6 +2,7 @@
 
 use crate::server::Server;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
@@ -28,9 +29,15 @@ fn the_document_is_complete() {
     let document: Value = Server::start().get("/openapi.json").json().unwrap();
     assert_eq!(document["openapi"].as_str().map(|version| &version[..3]), Some("3.1"));
     assert!(document["info"]["license"]["name"].as_str().is_some_and(|name| !name.is_empty()));
+    let mut names = BTreeSet::new();
     for (path, item) in document["paths"].as_object().unwrap() {
         for (method, operation) in item.as_object().unwrap() {
             assert!(operation["summary"].is_string(), "{method} {path} has no summary");
+            let name = operation["operationId"].as_str().expect("a name for generated clients");
+            assert!(
+                names.insert(name.to_owned()),
+                "{method} {path} is called {name} as another operation is"
+            );
             for (status, response) in operation["responses"].as_object().unwrap() {
                 let description = response["description"].as_str().unwrap_or_default();
                 assert!(!description.is_empty(), "{method} {path} {status} has no description");

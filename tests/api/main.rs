@@ -22,6 +22,7 @@ mod properties;
 mod protocol;
 mod radiance;
 mod readme;
+mod receiver;
 mod secure;
 mod server;
 mod spectra;

@@ -203,3 +203,18 @@ fn a_secure_connection_that_was_put_to_sleep_wakes_up() {
     assert!(!matches!(&end, Err(error) if error.kind() == ErrorKind::WouldBlock), "{end:?}");
     assert!(end.is_ok(), "{end:?}");
 }
+
+#[test]
+fn health_is_asked_over_tls_whatever_the_certificate() {
+    let files = Files::new("health");
+    let server = files.serve(&[]);
+    let (cert, key) = (files.path("cert.pem"), files.path("key.pem"));
+    let health = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_reflectance")).args(arguments).output().unwrap().status.code()
+    };
+    let own = ["--listen", server.address(), "--tls-cert", &cert, "--tls-key", &key, "health"];
+    assert_eq!(health(&own), Some(0));
+    assert_eq!(health(&["health", "--url", &server.url]), Some(0));
+    // Plain HTTP to the same port is answered with 400.
+    assert_eq!(health(&["health", "--url", &server.url.replace("https", "http")]), Some(1));
+}

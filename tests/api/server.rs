@@ -2,8 +2,14 @@
 
 use reqwest::blocking::{Client, RequestBuilder, Response};
 use serde_json::{Value, json};
+use std::ffi::OsString;
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::process::{Child, ChildStdout, Command, Stdio};
+
+/// The binary of this build, or the program that `REFLECTANCE_SERVER` names: it runs it somewhere else.
+fn binary() -> OsString {
+    std::env::var_os("REFLECTANCE_SERVER").unwrap_or_else(|| env!("CARGO_BIN_EXE_reflectance").into())
+}
 
 pub(crate) struct Server {
     pub(crate) process: Child,
@@ -21,7 +27,7 @@ impl Server {
     }
 
     pub(crate) fn with(flags: &[&str]) -> Self {
-        let mut process = Command::new(env!("CARGO_BIN_EXE_reflectance"))
+        let mut process = Command::new(binary())
             .args(["--listen", "127.0.0.1:0"])
             .args(flags)
             .env("REFLECTANCE_LOG_LEVEL", "off")

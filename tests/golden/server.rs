@@ -5,17 +5,27 @@ use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};
 use tokio::runtime::Runtime;
 
-/// A running service; stopped when dropped.
+/// A running service; stopped when dropped, if it was started here.
 pub(crate) struct Server {
-    process: Child,
+    process: Option<Child>,
     address: String,
     runtime: Runtime,
     client: reqwest::Client,
 }
 
 impl Server {
-    /// Starts it on a free port and reads from its output which.
+    /// The one at `REFLECTANCE_URL`, or one of this build.
     pub(crate) fn start() -> Self {
+        let (process, address) = match std::env::var("REFLECTANCE_URL") {
+            Ok(address) => (None, address),
+            Err(_) => Self::begin(),
+        };
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("runtime");
+        Self { process, address, runtime, client: reqwest::Client::new() }
+    }
+
+    /// Starts it on a free port and reads from its output which.
+    fn begin() -> (Option<Child>, String) {
         let mut process = Command::new(env!("CARGO_BIN_EXE_reflectance"))
             .args(["--listen", "127.0.0.1:0"])
             .stdout(Stdio::piped())
@@ -31,8 +41,7 @@ impl Server {
                 Some(url.split_whitespace().next()?.trim_end_matches('/').to_owned())
             })
             .expect("it prints where it listens");
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("runtime");
-        Self { process, address, runtime, client: reqwest::Client::new() }
+        (Some(process), address)
     }
 
     /// Posts JSON; the answer has to be a success.
@@ -51,7 +60,9 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         // Nothing to be done about a process that is gone already.
-        let _ = self.process.kill();
-        let _ = self.process.wait();
+        if let Some(process) = &mut self.process {
+            let _ = process.kill();
+            let _ = process.wait();
+        }
     }
 }

@@ -39,6 +39,7 @@ pub(crate) fn conductor(model: Model, height: f64, length: f64) -> SceneParamete
             polarization: Polarization::unpolarized(),
         },
         sensor: None,
+        receiver: None,
         components: Components::Auto,
         accuracy: Accuracy { relative_tolerance: in_range(1e-6), method: Method::Auto },
     }

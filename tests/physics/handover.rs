@@ -62,6 +62,7 @@ fn scene(medium: Medium, component: Component, height: f64, slope: f64, footprin
             half_x: in_range(0.5 * SIDE),
             half_y: in_range(0.5 * SIDE),
         }),
+        receiver: None,
         components: Components::Named(vec![component]),
         accuracy: Accuracy { relative_tolerance: in_range(TOLERANCE), method: Method::Auto },
     })

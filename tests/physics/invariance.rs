@@ -40,6 +40,7 @@ fn scene(model: Model, unit: f64) -> Scene {
             half_x: Length::new(length(2.3)).unwrap(),
             half_y: Length::new(length(2.3)).unwrap(),
         }),
+        receiver: None,
         components: Components::Named(model.components().to_vec()),
         accuracy: Accuracy { relative_tolerance: Tolerance::new(1e-12).unwrap(), method: Method::Series },
     })

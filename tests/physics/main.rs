@@ -10,6 +10,7 @@ mod limits;
 mod omission;
 mod random;
 mod realistic;
+mod receiver;
 mod savings;
 mod tolerance;
 

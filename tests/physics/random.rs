@@ -105,6 +105,7 @@ pub(crate) fn scene(random: &mut Random) -> SceneParameters {
             ][random.index(3)],
         },
         sensor,
+        receiver: None,
         components: Components::Auto,
         accuracy: Accuracy { relative_tolerance: in_range(random.power(-15.0, -1.0)), method: Method::Auto },
     }

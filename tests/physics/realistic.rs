@@ -105,6 +105,7 @@ impl Realistic {
                 half_x: in_range(0.5 * self.side),
                 half_y: in_range(0.5 * self.side),
             }),
+            receiver: None,
             components: Components::Auto,
             accuracy: Accuracy { relative_tolerance: in_range(tolerance), method: Method::Auto },
         })

@@ -6,7 +6,7 @@ use crate::http::app::Limits;
 use crate::http::edge::Meter;
 use crate::http::encode::rows::RowFormat;
 use crate::http::problem::{Code, FieldError, Problem};
-use crate::reflectance::bounds::{MAX_AVERAGED, MAX_SERIES};
+use crate::reflectance::bounds::{MAX_AVERAGED, MAX_RECEIVED, MAX_SERIES};
 use crate::reflectance::diagram::Sweep;
 use crate::reflectance::directions::{AngleColumn, Directions};
 use crate::reflectance::evaluate::{Output, Prepared, Quantity, average_cost, expected_cost};
@@ -159,6 +159,8 @@ impl Work {
             (rows, whats, limits.rows)
         } else if series > MAX_SERIES {
             (series, "series (fixed angles times wavelengths)", MAX_SERIES)
+        } else if self.is_received() && rows > MAX_RECEIVED {
+            (rows, "rows with a receiver_half_angle_deg", MAX_RECEIVED)
         } else {
             let what = "zeniths of the source, over all series, with fresnel_average slope_average";
             (self.averaged_sources(), what, MAX_AVERAGED)
@@ -168,6 +170,14 @@ impl Work {
         }
         let detail = format!("{number} {what} in one request: at most {limit} are answered");
         Err(vec![FieldError { pointer: pointer.to_owned(), code: Code::TooMany, detail }])
+    }
+
+    /// Whether each row is the mean over a receiver's cone.
+    fn is_received(&self) -> bool {
+        match &self.subject {
+            Subject::Scene { scene, .. } => scene.parameters().receiver.is_some(),
+            Subject::Linear { .. } => false,
+        }
     }
 
     /// Zeniths of the source under which F is averaged over the slopes, at each wavelength anew.
@@ -316,8 +326,9 @@ impl Work {
     }
 
     fn ranges(&self, nanoseconds_a_row: f64) -> impl Iterator<Item = Range<usize>> + Send + use<> {
+        let least = if self.is_received() { 1 } else { LEAST_ROWS };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped at once")]
-        let piece = ((PIECE / nanoseconds_a_row) as usize).clamp(LEAST_ROWS, MOST_ROWS);
+        let piece = ((PIECE / nanoseconds_a_row) as usize).clamp(least, MOST_ROWS);
         let points = self.points();
         (0..points).step_by(piece).map(move |first| first..points.min(first + piece))
     }

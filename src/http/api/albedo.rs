@@ -15,10 +15,10 @@ use crate::http::encode::json;
 use crate::http::encode::numbers::Numbers;
 use crate::http::encode::rows::{Binary, Cells, Head, Heading, Kind as Column, RowFormat, Rows};
 use crate::http::input::node::Node;
-use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::{Fields, Reader};
+use crate::http::input::object::{Checked, object};
+use crate::http::input::reader::Reader;
 use crate::http::input::values::List;
-use crate::http::input::wire::{Parameter, Schemas, Wire, mismatch};
+use crate::http::input::wire::{Schemas, Wire, mismatch};
 use crate::http::negotiate::{Tabular, VARY};
 use crate::http::problem::{Code, FieldError, Kind, Problem};
 use crate::reflectance::albedo::{Albedo, AlbedoScene};
@@ -33,7 +33,7 @@ use futures_util::{StreamExt as _, TryStreamExt as _, stream};
 use serde::Serialize;
 use std::sync::Arc;
 use utoipa::ToSchema;
-use utoipa::openapi::schema::{ObjectBuilder, Schema};
+use utoipa::openapi::schema::Schema;
 use utoipa::openapi::{OneOfBuilder, RefOr};
 
 /// One incidence or several.
@@ -73,34 +73,16 @@ pub(crate) struct CheckedAlbedoScene {
     light: Light,
 }
 
-impl WireObject for CheckedAlbedoScene {
-    const NAME: &'static str = SceneWire::NAME;
-    const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
+impl Checked for CheckedAlbedoScene {
+    type Fields = SceneWire;
 
-    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let wire = SceneWire::take(fields, reader)?;
+    fn check(wire: SceneWire, reader: &mut Reader) -> Option<Self> {
         for error in AlbedoScene::outline(wire.outline()).errors() {
             note(&error, reader);
         }
         let lit = wire.lit(reader)?;
         let scene = AlbedoScene::new(wire.into_parameters(&lit, DEFAULT_ALBEDO_TOLERANCE)?).ok()?;
         Some(Self { scene, light: lit.light })
-    }
-
-    fn names() -> Vec<&'static str> {
-        SceneWire::names()
-    }
-
-    fn properties(object: ObjectBuilder) -> ObjectBuilder {
-        SceneWire::properties(object)
-    }
-
-    fn inner(schemas: &mut Schemas) {
-        SceneWire::inner(schemas);
-    }
-
-    fn query_parameters(required: bool) -> Vec<Parameter> {
-        SceneWire::query_parameters(required)
     }
 }
 

@@ -95,6 +95,7 @@ impl IntoResponses for NoFigure {
 /// The report's figures.
 #[utoipa::path(
     get,
+    operation_id = "figures",
     path = "/v1/figures",
     tag = "diagrams",
     responses(

@@ -4,7 +4,8 @@
 use super::answer::{Answer, DiagnosticAnswer, SpectrumAnswer};
 use super::radiance::{CheckedDirections, OutputWire, RadianceRequest};
 use super::responses::PostProblems;
-use super::scene::{CheckedScene, describes_patch};
+use super::scene::CheckedScene;
+use super::sensor::describes_patch;
 use crate::http::answer::{self, Call, Over, Subject, Work};
 use crate::http::body::JsonBody;
 use crate::http::encode::numbers::Numbers;

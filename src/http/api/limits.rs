@@ -15,7 +15,9 @@ use crate::http::link::{Known, configured};
 use crate::http::negotiate::{Format, JsonOnly};
 use crate::http::plot::{MOST_CURVES, MOST_PIXELS};
 use crate::http::problem::{Kind, Problem};
-use crate::reflectance::bounds::{MAX_AVERAGED, MAX_CURVES, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS};
+use crate::reflectance::bounds::{
+    MAX_AVERAGED, MAX_CURVES, MAX_RECEIVED, MAX_SERIES, MAX_SWEEP_POINTS, MAX_WAVELENGTHS,
+};
 use axum::extract::State;
 use axum::response::Response;
 use clap::CommandFactory as _;
@@ -278,6 +280,13 @@ fn list(limits: &Limits) -> LimitList {
             MAX_AVERAGED,
             "angles",
             "Most zeniths of the source, over all curves, with fresnel_average slope_average",
+            invalid,
+        ),
+        Limit::fixed(
+            "received_rows",
+            MAX_RECEIVED,
+            "rows",
+            "Most rows, over all curves and wavelengths, with receiver_half_angle_deg",
             invalid,
         ),
         Limit::fixed(

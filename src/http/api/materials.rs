@@ -160,6 +160,7 @@ object! {
 /// range of wavelengths. Where sources disagree, the default is marked.
 #[utoipa::path(
     get,
+    operation_id = "materials",
     path = "/v1/materials",
     tag = "materials",
     params(MaterialsQuery),

@@ -18,6 +18,7 @@ pub(super) mod radiance;
 pub(super) mod responses;
 pub(super) mod roughness;
 mod scene;
+mod sensor;
 mod spike;
 mod sweep;
 pub(super) mod tradeoff;

@@ -30,7 +30,8 @@ pub(crate) struct PlanAnswer {
     medium: Option<MediumAnswer>,
     /// Directions of the request.
     directions: usize,
-    /// How many of them were looked at one by one: all up to 1024, else so many from the first to the last, equally spaced.
+    /// How many of them were looked at one by one: all up to 1024 (16 with a
+    /// `receiver_half_angle_deg`), else so many from the first to the last, equally spaced.
     sampled: usize,
     /// g of (34) is between these in every direction; absent where the scene has no heights or wavelength.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -153,8 +154,9 @@ pub(crate) async fn plan(
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), scene, .. } = request;
     let (scene, lookup) = scene.single()?;
-    // An average over slopes takes as long as a thousand directions.
-    let effort = if scene.averages_slopes() { usize::MAX } else { directions.count() };
+    // An average over slopes takes as long as a thousand directions, the mean over a cone as long.
+    let is_long = scene.averages_slopes() || scene.parameters().receiver.is_some();
+    let effort = if is_long { usize::MAX } else { directions.count() };
     compute::run(deadline, effort, move || {
         json::response(&PlanAnswer::new(Plan::of(&scene, &directions), lookup), 4096)
     })

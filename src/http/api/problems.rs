@@ -139,6 +139,7 @@ impl IntoResponses for NoProblem {
 /// Every type of problem.
 #[utoipa::path(
     get,
+    operation_id = "problems",
     path = "/problems",
     tag = "reference",
     responses(

@@ -2,10 +2,10 @@
 
 use super::responses::GetProblems;
 use crate::http::encode::json;
-use crate::http::input::object::{WireObject, object};
+use crate::http::input::object::{Checked, object};
 use crate::http::input::query::Query;
-use crate::http::input::reader::{Fields, Reader};
-use crate::http::input::wire::{Parameter, Schemas, is_given};
+use crate::http::input::reader::Reader;
+use crate::http::input::wire::is_given;
 use crate::http::link::{Known, linked};
 use crate::http::negotiate::JsonOnly;
 use crate::http::problem::{Code, Problem};
@@ -22,7 +22,6 @@ use axum::response::Response;
 use serde::Serialize;
 use std::hash::{Hash, Hasher};
 use utoipa::ToSchema;
-use utoipa::openapi::schema::ObjectBuilder;
 
 object! {
     partial
@@ -50,12 +49,10 @@ pub(crate) enum Measure {
     BeckmannAlpha(BeckmannAlpha),
 }
 
-impl WireObject for Measure {
-    const NAME: &'static str = WidthsWire::NAME;
-    const DESCRIPTION: &'static str = WidthsWire::DESCRIPTION;
+impl Checked for Measure {
+    type Fields = WidthsWire;
 
-    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let wire = WidthsWire::take(fields, reader)?;
+    fn check(wire: WidthsWire, reader: &mut Reader) -> Option<Self> {
         let (height, length) = (is_given(&wire.rms_height_um), is_given(&wire.correlation_length_um));
         let (slope, alpha) = (is_given(&wire.facet_slope_deg), is_given(&wire.beckmann_alpha));
         let measures = usize::from(height || length) + usize::from(slope) + usize::from(alpha);
@@ -91,22 +88,6 @@ impl WireObject for Measure {
             }
         }
         Some(Self::Heights(wire.rms_height_um??, wire.correlation_length_um??))
-    }
-
-    fn names() -> Vec<&'static str> {
-        WidthsWire::names()
-    }
-
-    fn properties(object: ObjectBuilder) -> ObjectBuilder {
-        WidthsWire::properties(object)
-    }
-
-    fn inner(schemas: &mut Schemas) {
-        WidthsWire::inner(schemas);
-    }
-
-    fn query_parameters(required: bool) -> Vec<Parameter> {
-        WidthsWire::query_parameters(required)
     }
 }
 

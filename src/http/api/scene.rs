@@ -1,11 +1,11 @@
 //! The description of a scene as requests carry it: model, surface, light, sensor, accuracy.
 
 use super::light::{self, IlluminationWire, Light, Lit};
+use super::sensor::{SensorWire, sensor_needs};
 use crate::http::input::medium::MediumWire;
-use crate::http::input::node::{Node, Object};
-use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::{Fields, Reader};
-use crate::http::input::wire::{self, Schemas, Wire, is_given, mismatch};
+use crate::http::input::object::{Checked, object};
+use crate::http::input::reader::Reader;
+use crate::http::input::wire::is_given;
 use crate::http::problem::{Code, Problem};
 use crate::reflectance::bounds::DEFAULT_TOLERANCE;
 use crate::reflectance::fresnel::Polarization;
@@ -14,15 +14,10 @@ use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::outline::{Listed, Outline, Parameter, SceneError, Slopes};
 use crate::reflectance::quantity::{
-    Area, CorrelationLength, FacetSlope, Fraction, Irradiance, Length, OffAxis, Quantity, RmsHeight,
-    SpecularScale, Tolerance,
+    CorrelationLength, FacetSlope, Fraction, Irradiance, Quantity, RmsHeight, SpecularScale, Tolerance,
 };
-use crate::reflectance::scene::{
-    self, Accuracy, CameraSensor, Components, Model, Scene, SceneParameters, Sensor,
-};
+use crate::reflectance::scene::{self, Accuracy, Components, Model, Scene, SceneParameters};
 use crate::reflectance::shadowing::Shadowing;
-use utoipa::openapi::schema::{ObjectBuilder, Schema};
-use utoipa::openapi::{OneOfBuilder, RefOr};
 
 object! {
     partial
@@ -56,130 +51,6 @@ object! {
 }
 
 object! {
-    /// What the sensor sees: the quantities of (47) and (35) themselves.
-    PatchWire as "Patch" {
-        /// (z/f)² dA_im cos γ of (43), square micrometres.
-        footprint_um2: Area,
-        /// X of (35), micrometres.
-        patch_half_x_um: Length,
-        /// Y of (35), micrometres.
-        patch_half_y_um: Length,
-    }
-}
-
-object! {
-    /// A camera as in figure 10: its footprint follows by (43), A = footprint/cos θ_r and X = Y = √A/2.
-    CameraWire as "Camera" {
-        /// dA_im, square micrometres.
-        pixel_area_um2: Area,
-        /// z, micrometres.
-        distance_um: Length,
-        /// f, micrometres.
-        focal_length_um: Length,
-        /// d, micrometres: the diameter of the lens.
-        aperture_um: Length,
-        /// γ, degrees; 0 when absent or null.
-        off_axis_deg: Option<OffAxis>,
-    }
-}
-
-impl Wire for Sensor {
-    fn read(node: Node, reader: &mut Reader) -> Option<Self> {
-        let Node::Object(object) = node else {
-            return reader
-                .fail(Code::WrongType, mismatch(&node, &"an object that describes a patch or a camera"));
-        };
-        let mut fields = Fields::new(object);
-        let (patch, camera) = (PatchWire::names(), CameraWire::names());
-        let accepted = match (fields.has_any(&patch), fields.has_any(&camera)) {
-            (true, _) => patch,
-            (false, true) => camera,
-            (false, false) => [patch, camera].concat(),
-        };
-        let sensor = take_sensor(&mut fields, reader);
-        fields.finish(reader, || accepted);
-        sensor
-    }
-
-    fn read_flat(_: &'static str, fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        take_sensor(fields, reader)
-    }
-
-    fn is_given(_: &'static str, fields: &Fields) -> bool {
-        fields.has_any(&PatchWire::names()) || fields.has_any(&CameraWire::names())
-    }
-
-    fn schema() -> RefOr<Schema> {
-        OneOfBuilder::new().item(PatchWire::reference()).item(CameraWire::reference()).into()
-    }
-
-    fn collect(schemas: &mut Schemas) {
-        PatchWire::gather(schemas);
-        CameraWire::gather(schemas);
-    }
-
-    fn parameters(_: &'static str, _: &str, _: bool) -> Vec<wire::Parameter> {
-        let mut parameters = PatchWire::query_parameters(false);
-        parameters.extend(CameraWire::query_parameters(false));
-        parameters
-    }
-}
-
-/// Whether the fields of an object describe a patch and nothing of a camera.
-pub(super) fn describes_patch(object: &Object) -> bool {
-    let has = |names: &[&str]| object.fields.iter().any(|(name, _)| names.contains(&name.as_str()));
-    has(&PatchWire::names()) && !has(&CameraWire::names())
-}
-
-/// What a sensor needs, for messages.
-pub(super) fn sensor_needs() -> String {
-    let camera = CameraWire::names();
-    // The last field of a camera, γ, may be left out.
-    let camera = camera[..camera.len() - 1].join(", ");
-    format!("{} of a patch, or {camera} of a camera", PatchWire::names().join(", "))
-}
-
-fn take_sensor(fields: &mut Fields, reader: &mut Reader) -> Option<Sensor> {
-    let patch = fields.given(&PatchWire::names());
-    match (patch.first(), fields.has_any(&CameraWire::names())) {
-        (None, false) => reader.fail(Code::Required, format!("required: {}", sensor_needs())),
-        (None, true) => take_camera(fields, reader),
-        (Some(_), false) => {
-            let patch = PatchWire::take(fields, reader)?;
-            Some(Sensor::Patch {
-                footprint: patch.footprint_um2,
-                half_x: patch.patch_half_x_um,
-                half_y: patch.patch_half_y_um,
-            })
-        }
-        (Some(first), true) => {
-            // Neither a patch nor a camera: what is missing of either cannot be said.
-            fields.exclude(reader, &CameraWire::names(), &format!("{first}, a field of a patch"));
-            fields.take_named::<Option<Area>>(reader, "footprint_um2");
-            fields.take_named::<Option<Area>>(reader, "pixel_area_um2");
-            for name in
-                ["patch_half_x_um", "patch_half_y_um", "distance_um", "focal_length_um", "aperture_um"]
-            {
-                fields.take_named::<Option<Length>>(reader, name);
-            }
-            fields.take_named::<Option<OffAxis>>(reader, "off_axis_deg");
-            None
-        }
-    }
-}
-
-fn take_camera(fields: &mut Fields, reader: &mut Reader) -> Option<Sensor> {
-    let camera = CameraWire::take(fields, reader)?;
-    Some(Sensor::Camera(CameraSensor {
-        pixel_area: camera.pixel_area_um2,
-        distance: camera.distance_um,
-        focal_length: camera.focal_length_um,
-        aperture: camera.aperture_um,
-        off_axis: camera.off_axis_deg.or_else(|| OffAxis::new(0.0).ok())?,
-    }))
-}
-
-object! {
     partial
     /// How exactly, and by which method.
     AccuracyWire as "Accuracy" {
@@ -204,8 +75,8 @@ object! {
         surface: SurfaceWire,
         /// The light: a unit beam when absent or null. The height models need its wavelength.
         illumination: Option<IlluminationWire>,
-        /// The sensor; only the specular spike needs it.
-        sensor: Option<Sensor>,
+        /// The sensor; only the specular spike needs it. With a `receiver_half_angle_deg` answers are means over a cone.
+        sensor: Option<SensorWire>,
         /// Which components: `auto` (when absent or null) leaves out what changes no total of the request by more than a
         /// quarter of the tolerance, and says so; or a list of names, each of which is answered.
         components: Option<Listed>,
@@ -228,7 +99,7 @@ impl SceneWire {
                 light.is_some_and(|l| l.as_ref().is_none_or(|l| !is_given(&l.wavelength_um))),
                 Parameter::Wavelength,
             ),
-            (!is_given(&self.sensor), Parameter::Sensor),
+            (self.sensor.is_some_and(|sensor| !sensor.is_some_and(SensorWire::sees)), Parameter::Sensor),
         ];
         Outline {
             model: self.model,
@@ -281,7 +152,8 @@ impl SceneWire {
                 irradiance: irradiance.or_else(|| Irradiance::new(1.0).ok())?,
                 polarization: polarization.unwrap_or_else(Polarization::unpolarized),
             },
-            sensor: self.sensor?,
+            sensor: self.sensor?.and_then(|sensor| sensor.seen),
+            receiver: self.sensor?.and_then(|sensor| sensor.receiver),
             components: match self.components? {
                 None | Some(Listed::Auto) => Components::Auto,
                 Some(Listed::Named(named)) => Components::Named(named.into_iter().collect::<Option<_>>()?),
@@ -309,12 +181,10 @@ impl CheckedScene {
     }
 }
 
-impl WireObject for CheckedScene {
-    const NAME: &'static str = SceneWire::NAME;
-    const DESCRIPTION: &'static str = SceneWire::DESCRIPTION;
+impl Checked for CheckedScene {
+    type Fields = SceneWire;
 
-    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let wire = SceneWire::take(fields, reader)?;
+    fn check(wire: SceneWire, reader: &mut Reader) -> Option<Self> {
         for error in wire.outline().errors() {
             note(&error, reader);
         }
@@ -322,22 +192,6 @@ impl WireObject for CheckedScene {
         // What is wrong with the whole was just noted.
         let scene = Scene::new(wire.into_parameters(&lit, DEFAULT_TOLERANCE)?).ok()?;
         Some(Self { scene, light: lit.light })
-    }
-
-    fn names() -> Vec<&'static str> {
-        SceneWire::names()
-    }
-
-    fn properties(object: ObjectBuilder) -> ObjectBuilder {
-        SceneWire::properties(object)
-    }
-
-    fn inner(schemas: &mut Schemas) {
-        SceneWire::inner(schemas);
-    }
-
-    fn query_parameters(required: bool) -> Vec<wire::Parameter> {
-        SceneWire::query_parameters(required)
     }
 }
 

@@ -1,14 +1,13 @@
 //! The sweep of a diagram as requests carry it.
 
-use crate::http::input::object::{WireObject, object};
-use crate::http::input::reader::{Fields, Reader};
+use crate::http::input::object::{Checked, object};
+use crate::http::input::reader::Reader;
 use crate::http::input::values::List;
-use crate::http::input::wire::{Count, Parameter, Schemas, is_given, named};
+use crate::http::input::wire::{Count, is_given, named};
 use crate::http::problem::Code;
 use crate::reflectance::bounds::{MAX_CURVES, MAX_ROWS, MAX_SWEEP_POINTS};
 use crate::reflectance::diagram::{DiagramError, Division, Sweep, SweepAxis, SweepParts};
 use crate::reflectance::quantity::{Azimuth, Quantity as _, SweepAngle, SweepStep, ViewerZenith};
-use utoipa::openapi::schema::ObjectBuilder;
 
 named! {
     SweepAxis, "an angle to sweep", [SweepAxis::ThetaR, SweepAxis::ThetaI];
@@ -42,12 +41,10 @@ object! {
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedSweep(pub(crate) Sweep);
 
-impl WireObject for CheckedSweep {
-    const NAME: &'static str = SweepWire::NAME;
-    const DESCRIPTION: &'static str = SweepWire::DESCRIPTION;
+impl Checked for CheckedSweep {
+    type Fields = SweepWire;
 
-    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
-        let wire = SweepWire::take(fields, reader)?;
+    fn check(wire: SweepWire, reader: &mut Reader) -> Option<Self> {
         let by_points = is_given(&wire.points);
         let division = if by_points && is_given(&wire.step_deg) {
             let detail = "give step_deg or points, not both";
@@ -72,22 +69,6 @@ impl WireObject for CheckedSweep {
             note(&error, points, reader);
         }
         parts.complete().map(Self)
-    }
-
-    fn names() -> Vec<&'static str> {
-        SweepWire::names()
-    }
-
-    fn properties(object: ObjectBuilder) -> ObjectBuilder {
-        SweepWire::properties(object)
-    }
-
-    fn inner(schemas: &mut Schemas) {
-        SweepWire::inner(schemas);
-    }
-
-    fn query_parameters(required: bool) -> Vec<Parameter> {
-        SweepWire::query_parameters(required)
     }
 }
 

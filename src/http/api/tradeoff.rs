@@ -8,7 +8,7 @@ use crate::http::compute;
 use crate::http::edge::Deadline;
 use crate::http::encode::json;
 use crate::http::negotiate::JsonOnly;
-use crate::http::problem::Problem;
+use crate::http::problem::{Code, FieldError, Problem};
 use crate::reflectance::evaluate::Quantity;
 use crate::reflectance::material::Lookup;
 use crate::reflectance::numeric::lobe_series::Method;
@@ -154,6 +154,15 @@ pub(crate) async fn tradeoff(
 ) -> Result<Response, Problem> {
     let RadianceRequest { geometry: CheckedDirections(directions), output, scene } = request;
     let (scene, lookup) = scene.single()?;
+    if scene.parameters().receiver.is_some() {
+        let detail = "the trade is measured of points: expected 0, or no receiver_half_angle_deg";
+        let pointer = "/sensor/receiver_half_angle_deg".to_owned();
+        return Err(Problem::invalid(vec![FieldError {
+            pointer,
+            code: Code::Inconsistent,
+            detail: detail.into(),
+        }]));
+    }
     let permit = compute::turn(deadline, &ONE_AT_A_TIME).await?;
     compute::blocking(deadline, move || {
         let _permit = permit;

@@ -70,6 +70,41 @@ pub(crate) trait WireObject: Sized {
     }
 }
 
+/// What the fields of an object make when they are checked against each other. It is read, documented and spelled as the object.
+pub(crate) trait Checked: Sized {
+    /// The object.
+    type Fields: WireObject;
+
+    /// Notes what is wrong with the whole.
+    fn check(fields: Self::Fields, reader: &mut Reader) -> Option<Self>;
+}
+
+impl<C: Checked> WireObject for C {
+    const NAME: &'static str = C::Fields::NAME;
+    const DESCRIPTION: &'static str = C::Fields::DESCRIPTION;
+
+    fn take(fields: &mut Fields, reader: &mut Reader) -> Option<Self> {
+        let fields = C::Fields::take(fields, reader)?;
+        C::check(fields, reader)
+    }
+
+    fn names() -> Vec<&'static str> {
+        C::Fields::names()
+    }
+
+    fn properties(object: ObjectBuilder) -> ObjectBuilder {
+        C::Fields::properties(object)
+    }
+
+    fn inner(schemas: &mut Schemas) {
+        C::Fields::inner(schemas);
+    }
+
+    fn query_parameters(required: bool) -> Vec<Parameter> {
+        C::Fields::query_parameters(required)
+    }
+}
+
 /// The text of a doc comment as one paragraph.
 pub(crate) fn prose(doc: &str) -> String {
     doc.lines().map(str::trim).collect::<Vec<_>>().join(" ").trim().to_owned()

@@ -9,8 +9,8 @@ use crate::http::problem::{Code, Kind, Problem};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 
-/// Ten times the parameters there are, with a hundred fixed angles one by one.
-pub(crate) const MOST_PARAMETERS: usize = 512;
+/// Twice the parameters there are, with a thousand wavelengths and a hundred fixed angles one by one.
+pub(crate) const MOST_PARAMETERS: usize = 2048;
 /// As many as most links have.
 const USUAL_PARAMETERS: usize = 16;
 

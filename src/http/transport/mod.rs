@@ -10,6 +10,7 @@ mod connection;
 mod descriptors;
 pub(super) mod doors;
 mod exchange;
+mod listen;
 mod received;
 mod refusal;
 mod signals;
@@ -17,7 +18,8 @@ mod stream;
 mod tls;
 mod watch;
 
-pub use signals::Signals;
+pub use listen::run;
+use signals::Signals;
 
 use super::app::App;
 use super::service;
@@ -37,7 +39,7 @@ enum Protocol {
 }
 
 /// All that serving needs, checked before anything listens.
-pub struct Service {
+struct Service {
     app: App,
     tls: Option<Arc<Tls>>,
     connection_limit: usize,
@@ -46,7 +48,7 @@ pub struct Service {
 
 impl Service {
     /// Reads what the configuration names; an error is one line that says what cannot be used.
-    pub fn prepare(config: &Config) -> Result<Self, String> {
+    fn prepare(config: &Config) -> Result<Self, String> {
         let tls = match (&config.access.tls_cert, &config.access.tls_key) {
             (Some(certificate), Some(key)) => Some(Arc::new(Tls::open(certificate, key)?)),
             _ => None,
@@ -63,12 +65,12 @@ impl Service {
     }
 
     /// The scheme of its links.
-    pub fn scheme(&self) -> &'static str {
+    fn scheme(&self) -> &'static str {
         if self.tls.is_some() { "https" } else { "http" }
     }
 
     /// Serves until a signal says to leave, then lets the requests in flight finish. Says whether all did.
-    pub async fn serve(self, listener: TcpListener, signals: Signals) -> bool {
+    async fn serve(self, listener: TcpListener, signals: Signals) -> bool {
         descriptors::raise(self.connection_limit);
         let server = Arc::new(Server::new(self.app.clone(), service(&self.app), self.tls.clone()));
         let accept = Accept::new(listener, server);

@@ -115,13 +115,7 @@ impl Lobe {
     /// The width of the lobe, and where it may be cut.
     fn extent(&self, source: SinCos) -> Extent {
         let (width, end) = match self.slopes {
-            Slopes::Heights { roughness, .. } => {
-                let slope = 2.0 * roughness.height / roughness.correlation_length;
-                let wave = 2.0 * PI * roughness.correlation_length;
-                // v_xy T = 2 with v_xy = 2k cos θ′ sin α, and cos θ′ ≥ sin α near a grazing source.
-                let diffraction = (1.0 / (wave * source.cos)).min(1.0 / wave.sqrt());
-                (slope.max(diffraction), f64::INFINITY)
-            }
+            Slopes::Heights { roughness, .. } => (roughness.facet_width(source.cos), f64::INFINITY),
             Slopes::Angles { sigma_alpha, .. } => {
                 let end = match self.most_over_cos_i(source) {
                     Some(most) => sigma_alpha * SQRT_2 * (CUT + libm::log(most.max(1.0))).sqrt(),

@@ -7,15 +7,10 @@ use crate::reflectance::fresnel::{Medium, Polarization, RefractiveIndex};
 use crate::reflectance::geometry::Geometry;
 use crate::reflectance::numeric::EPSILON;
 use crate::reflectance::numeric::cubature::{self, Cubature, Goal, NODES};
-use crate::reflectance::numeric::lobe_series::Method;
 use crate::reflectance::numeric::quadrature::integrate;
-use crate::reflectance::quantity::{
-    CorrelationLength, FacetSlope, Fraction, IndexK, IndexN, Irradiance, Quantity, RmsHeight, SourceZenith,
-    Tolerance, Wavelength,
-};
-use crate::reflectance::scene::{
-    Accuracy, Component, Components, Illumination, Model, SceneParameters, Surface,
-};
+use crate::reflectance::quantity::{FacetSlope, IndexK, IndexN, Quantity, SourceZenith};
+use crate::reflectance::samples::conductor;
+use crate::reflectance::scene::{Component, Components, Model, SceneParameters};
 use crate::reflectance::shadowing::Shadowing;
 use core::f64::consts::PI;
 
@@ -96,30 +91,6 @@ fn a_facet_has_the_geometry_of_its_directions() {
     }
 }
 
-fn parameters(model: Model, lengths: [f64; 2], tolerance: f64) -> SceneParameters {
-    SceneParameters {
-        model,
-        surface: Surface {
-            rms_height: Some(RmsHeight::new(lengths[0]).unwrap()),
-            correlation_length: Some(CorrelationLength::new(lengths[1]).unwrap()),
-            facet_slope: None,
-            medium: Medium::PerfectConductor,
-            diffuse_albedo: Fraction::ZERO,
-            specular_scale: None,
-            shadowing: Some(Shadowing::None),
-            fresnel_average: None,
-        },
-        illumination: Illumination {
-            wavelength: Some(Wavelength::new(1.0).unwrap()),
-            irradiance: Irradiance::new(1.0).unwrap(),
-            polarization: Polarization::unpolarized(),
-        },
-        sensor: None,
-        components: Components::Auto,
-        accuracy: Accuracy { relative_tolerance: Tolerance::new(tolerance).unwrap(), method: Method::Auto },
-    }
-}
-
 fn at(parameters: SceneParameters, theta_i: f64) -> Albedo {
     AlbedoScene::new(parameters).unwrap().at(SourceZenith::new(theta_i).unwrap(), || false).unwrap()
 }
@@ -134,7 +105,7 @@ fn a_smooth_surface_of_short_correlation_scatters_as_its_closed_form() {
     // For g → 0 and T → 0 S is g: the lobe is π³ (T σ_h/λ²)² (4 cos² θ′)²/cos θ_i, and with cos 2θ′ averaged over the
     // hemisphere that adds up to 8π⁴ (T σ_h/λ²)² (4/3 + cos θ_i)/cos θ_i.
     for theta_i in [0.0, 20.0, 60.0, 85.0, 89.99] {
-        let mut p = parameters(Model::BeckmannSpizzichino, [1e-9, 1e-8], 1e-9);
+        let mut p = conductor(Model::BeckmannSpizzichino, [1e-9, 1e-8], 1e-9);
         p.components = Components::Named(vec![Component::SpecularLobe]);
         let (value, error) = lobe(&at(p, theta_i));
         let cos = SinCos::of_degrees(theta_i).cos;
@@ -152,7 +123,7 @@ fn facets_at_normal_incidence_are_one_integral() {
     for (slope, shadowing) in
         [(5.0, Shadowing::None), (40.0, Shadowing::VGroove), (200.0, Shadowing::VGroove)]
     {
-        let mut p = parameters(Model::TorranceSparrow, [1.0, 1.0], 1e-11);
+        let mut p = conductor(Model::TorranceSparrow, [1.0, 1.0], 1e-11);
         p.surface.facet_slope = Some(FacetSlope::new(slope).unwrap());
         p.surface.medium = Medium::Index(glass);
         p.surface.shadowing = Some(shadowing);
@@ -179,11 +150,11 @@ fn narrow_lobes_send_all_that_arrives() {
     // What is left of 1 is of the order of the squared width, and of what grazes: none here.
     for theta_i in [0.0, 30.0, 80.0] {
         for lengths in [[1e3, 1e9], [1e-3, 1e9], [1e6, 1e15]] {
-            let albedo = at(parameters(Model::BeckmannSpizzichino, lengths, 1e-9), theta_i);
+            let albedo = at(conductor(Model::BeckmannSpizzichino, lengths, 1e-9), theta_i);
             let (total, error) = (albedo.total.value.to_f64(), albedo.total.error.to_f64());
             assert!((total - 1.0).abs() <= error + 1e-9, "{theta_i} {lengths:?}: {total} {error}");
         }
-        let mut p = parameters(Model::TorranceSparrow, [1.0, 1.0], 1e-9);
+        let mut p = conductor(Model::TorranceSparrow, [1.0, 1.0], 1e-9);
         p.surface.facet_slope = Some(FacetSlope::new(1e-12).unwrap());
         let (value, error) = lobe(&at(p, theta_i));
         assert!((value - 1.0).abs() <= error + 1e-13, "{theta_i}: {value} {error}");
@@ -198,25 +169,25 @@ fn a_grazing_source_has_its_limit_or_none() {
         (Model::Unified, Shadowing::None, 0.0),
         (Model::Unified, Shadowing::VGroove, 0.0),
     ] {
-        let mut p = parameters(model, [0.2, 2.0], 1e-6);
+        let mut p = conductor(model, [0.2, 2.0], 1e-6);
         p.surface.shadowing = Some(shadowing);
         assert_eq!(at(p, 90.0).components[1].unwrap().value.to_f64(), exact, "{model:?} {shadowing:?}");
     }
     // With V-grooves the limit is what comes next to it.
     for model in [Model::BeckmannSpizzichino, Model::TorranceSparrow] {
-        let mut p = parameters(model, [0.2, 2.0], 1e-8);
+        let mut p = conductor(model, [0.2, 2.0], 1e-8);
         p.surface.shadowing = Some(Shadowing::VGroove);
         let (limit, error) = lobe(&at(p.clone(), 90.0));
         let (next, next_error) = lobe(&at(p, 90.0 - 1e-11));
         assert!((limit - next).abs() <= error + next_error + 1e-9 * limit, "{model:?}: {limit} {next}");
     }
-    let mut dark = parameters(Model::TorranceSparrow, [0.2, 2.0], 1e-6);
+    let mut dark = conductor(Model::TorranceSparrow, [0.2, 2.0], 1e-6);
     dark.surface.specular_scale = crate::reflectance::quantity::SpecularScale::new(0.0).ok();
     assert!(at(dark, 90.0).total.value.is_zero());
 }
 
 #[test]
 fn nobody_waits_for_a_stopped_integral() {
-    let scene = AlbedoScene::new(parameters(Model::BeckmannSpizzichino, [0.2, 2.0], 1e-6)).unwrap();
+    let scene = AlbedoScene::new(conductor(Model::BeckmannSpizzichino, [0.2, 2.0], 1e-6)).unwrap();
     assert!(scene.at(SourceZenith::new(10.0).unwrap(), || true).is_none());
 }

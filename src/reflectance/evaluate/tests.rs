@@ -96,6 +96,7 @@ fn scene(random: &mut Random) -> Scene {
             ]),
         },
         sensor: None,
+        receiver: None,
         components: Components::Named(components.to_vec()),
         accuracy: Accuracy {
             relative_tolerance: in_range(10f64.powf(random.between(-15.0, -1.0))),
