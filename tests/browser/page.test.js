@@ -43,7 +43,10 @@ test("the first picture is the service's answer", async () => {
   const names = document.paths["/v1/diagrams"].get.parameters.map(({ name }) => name);
   const controls = await page.$$eval("[data-field]", (fields) => fields.map((field) => field.dataset.field));
   const above = await page.$$eval("#options input", (inputs) => inputs.map(({ name, id }) => name || id));
-  assert.deepEqual(names.filter((name) => !controls.includes(name) && !above.includes(name) && name !== "form"), []);
+  assert.deepEqual(
+    names.filter((name) => !controls.includes(name) && !above.includes(name) && name !== "form"),
+    [],
+  );
   await close();
 });
 

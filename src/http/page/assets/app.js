@@ -208,7 +208,9 @@ function wire() {
   document
     .querySelectorAll('input[name="plot"], input[name="scale"]')
     .forEach((radio) => radio.addEventListener("change", () => change({ ...state, [radio.name]: radio.value }, true)));
-  $("curves").addEventListener("change", () => change({ ...state, curves: $("curves").checked ? "all" : "total" }, true));
+  $("curves").addEventListener("change", () =>
+    change({ ...state, curves: $("curves").checked ? "all" : "total" }, true),
+  );
   presets.wire();
   $("whole").addEventListener("click", () => {
     whole = !whole;

@@ -20,6 +20,7 @@ const SENSOR = [
   "focal_length_um",
   "aperture_um",
   "off_axis_deg",
+  "receiver_half_angle_deg",
 ];
 const TEXTS = new Set(["shadowing", "fresnel_average", "material", "source", "polarization", "method"]);
 

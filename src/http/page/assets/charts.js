@@ -113,6 +113,15 @@ export const tradeoffRequest = (state) => radiance(state, directions(state, 64))
 /** Measures every method now. */
 export const loadTradeoff = (state, signal) => json("v1/tradeoff", { body: tradeoffRequest(state), signal });
 
+/** Methods that often do alike have their names on two sides. */
+const PLACES = {
+  auto: "middle left",
+  series: "top right",
+  paper: "bottom right",
+  smooth: "top right",
+  rough: "bottom right",
+};
+
 /** Largest error over time, one point for each way to evaluate the scene. */
 export function tradeoff(data, state, colours) {
   // An error of exactly 0 has no logarithm; the service counts none below the reference's own bound.
@@ -121,14 +130,17 @@ export function tradeoff(data, state, colours) {
   const text = (row) => (row.method === "auto" ? `auto at ${number(row.relative_tolerance)}` : name(row.method));
   const told = (row) =>
     `${text(row)}<br>${number(row.nanoseconds_per_direction, 3)} ns a direction, ${number(row.time_ratio, 3)} × the cheapest<br>largest error ${bound(row.largest_relative_error)}, bound ${bound(row.largest_relative_error_bound)}`;
-  const group = (title, members, colour, symbol, position) => ({
+  const group = (title, members, colour, symbol) => ({
     type: "scatter",
     mode: "markers+text",
     name: title,
     x: members.map((row) => log(row.nanoseconds_per_direction)),
     y: members.map((row) => log(row.largest_relative_error)),
-    text: members.map((row) => (row.method === "auto" ? number(row.relative_tolerance) : name(row.method))),
-    textposition: position,
+    // With room for the marks of the bounds.
+    text: members.map((row) =>
+      row.method === "auto" ? `${number(row.relative_tolerance)}   ` : `  ${name(row.method)}`,
+    ),
+    textposition: members.map((row) => PLACES[row.method] ?? "middle right"),
     textfont: { size: 11, color: colours.text },
     customdata: members.map(told),
     hovertemplate: "%{customdata}<extra></extra>",
@@ -152,8 +164,8 @@ export function tradeoff(data, state, colours) {
       marker: { symbol: "line-ew-open", size: 12, color: colours.muted, line: { width: 2 } },
       hoverinfo: "skip",
     },
-    group("auto, by tolerance", auto, colours.colours[0], "circle", "middle left"),
-    group("by name", named, colours.colours[1], "diamond", "middle right"),
+    group("auto, by tolerance", auto, colours.colours[0], "circle"),
+    group("by name", named, colours.colours[1], "diamond"),
   ].filter((trace) => trace.x.length > 0);
   const xs = extent(traces.map(({ x }) => x));
   const ys = extent(traces.map(({ y }) => y));

@@ -30,15 +30,18 @@ function traces(data, state, colours) {
       const y = (log ? curve.logs : curve.columns)[key];
       const x = curve.xOf?.(key, log) ?? curve.x;
       const component = order.indexOf(key);
-      const colour = colours.colours[(several || component < 0 ? at : component) % colours.colours.length];
+      const palette = colours.colours[(several || component < 0 ? at : component) % colours.colours.length];
+      // What a figure compares with its first model lies on top of it.
+      const isSecond = curve.panel > 0;
+      const colour = isSecond ? colours.text : palette;
       const label =
         several || component < 0
           ? `${curve.label}${key === "total" || component < 0 ? "" : ` ${name(key)}`}`
           : name(key);
       const line = {
         color: colour,
-        width: key === "total" ? 2.2 : 1.7,
-        dash: several || key !== "total" ? DASHES[key] : "solid",
+        width: key === "total" && !isSecond ? 2.2 : 1.7,
+        dash: isSecond ? "dot" : several || key !== "total" ? DASHES[key] : "solid",
       };
       return { key, curve: at, x, y, label: subscript(label), line, log };
     }),

@@ -40,7 +40,8 @@ export async function load(state, signal, progress) {
   if (state.figure) {
     const figure = await json(link(state), { signal });
     const panels = figure.panels.map(({ label, diagram }) => curves(diagram, figure.panels.length > 1 ? label : ""));
-    return { ...panels[0], curves: panels.flatMap((panel) => panel.curves), figure };
+    const all = panels.flatMap((panel, at) => panel.curves.map((curve) => ({ ...curve, panel: at })));
+    return { ...panels[0], curves: all, figure };
   }
   if (rows(state) > LONG) return long(state, signal, progress);
   return curves(await json(link(state), { signal }), "");

@@ -175,6 +175,13 @@ export const GROUPS = [
         { name: "aperture_um", label: "Aperture", symbol: "d", log: [1e2, 1e6] },
         { name: "off_axis_deg", label: "Off axis", symbol: "γ", linear: [0, 60, 0.5], empty: "0" },
       ].map((field) => ({ ...field, when: (state) => state.sensor === "camera" })),
+      {
+        name: "receiver_half_angle_deg",
+        label: "Half angle of the receiver",
+        symbol: "β",
+        linear: [0, 15, 0.1],
+        empty: "0",
+      },
     ],
   },
   {

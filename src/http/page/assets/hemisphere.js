@@ -3,7 +3,7 @@
 import { radiance, source } from "./bodies.js";
 import { SCALED, axis, decades, extent, layout } from "./plotting.js";
 import { json } from "./service.js";
-import { fromLog10, name, number, unit } from "./words.js";
+import { fromLog10, name, number, subscript, unit } from "./words.js";
 
 /** Degrees between the points of the disc: 11,300 directions. */
 const DISC = 1.5;
@@ -130,7 +130,7 @@ function marks(data, colours) {
     annotations: [
       ...rings,
       label(-98, "180°", { xanchor: "right", bgcolor: undefined }),
-      label(98, "φ_r = 0°", { xanchor: "left", bgcolor: undefined }),
+      label(98, subscript("φ_r = 0°"), { xanchor: "left", bgcolor: undefined }),
     ],
     cross,
   };

@@ -51,11 +51,11 @@ export async function ask(path, { body, accept = "application/json", signal } = 
     });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new Away("The service does not answer.");
+    throw new Away();
   }
   if (response.ok) return response;
   // A proxy in front answers so when there is nobody behind it.
-  if (response.status === 502 || response.status === 504) throw new Away("The service does not answer.");
+  if (response.status === 502 || response.status === 504) throw new Away();
   const problem = await response.json().catch(() => ({}));
   const wait = Number(response.headers.get("retry-after"));
   const later = response.status === 503 || response.status === 429;
@@ -75,7 +75,10 @@ async function taken(send, read) {
     return await read(response);
   } catch (error) {
     if (error.name === "AbortError" || error instanceof SyntaxError) throw error;
-    throw new Away("The service's answer broke off.");
+    const answers = await isThere();
+    throw answers
+      ? new Error("The service ended its answer before it was whole: it takes longer than is allowed.")
+      : new Away();
   }
 }
 
@@ -132,11 +135,15 @@ export class Latest {
   }
 }
 
+async function isThere() {
+  const answer = await fetch("livez", { cache: "no-store" }).catch(() => null);
+  return answer?.ok === true;
+}
+
 /** Waits until the service answers again. */
 export async function back() {
   for (;;) {
     await new Promise((resolve) => setTimeout(resolve, 1000));
-    const answer = await fetch("livez", { cache: "no-store" }).catch(() => null);
-    if (answer?.ok) return;
+    if (await isThere()) return;
   }
 }

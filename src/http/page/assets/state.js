@@ -35,10 +35,9 @@ const DEFAULTS = { plot: "curve", scale: "linear", sweep: "theta_r_deg", from_de
 /** A state out of a link's parameters. */
 export function parse(text) {
   const state = { ...DEFAULTS };
-  for (const [key, value] of new URLSearchParams(text)) {
-    // A list may come as several parameters of one name.
-    state[key] = Object.hasOwn(state, key) && DEFAULTS[key] !== state[key] ? `${state[key]},${value}` : value;
-  }
+  const given = new URLSearchParams(text);
+  // A list may come as several parameters of one name.
+  for (const key of given.keys()) state[key] = given.getAll(key).join(",");
   state.medium = state.material !== undefined ? "material" : state.n !== undefined ? "index" : "perfect_conductor";
   const has = (names) => names.some((name) => state[name] !== undefined);
   state.sensor = has(CAMERA) ? "camera" : has(PATCH) ? "patch" : "none";

@@ -62,6 +62,7 @@ export class Trouble {
     if (this.#isAway) return;
     this.#isAway = true;
     await back();
+    this.#isAway = false;
     this.#page.again(0);
   }
 
