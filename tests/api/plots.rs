@@ -155,17 +155,16 @@ fn a_polar_curve_is_as_far_from_the_origin_as_its_values_are_large() {
     let picture = Document::parse(&text).unwrap();
     // Marks of the values stand at one height below the surface, from the origin to the right.
     let x = ruler(&numbers(&picture), 1);
-    let surface = picture
-        .descendants()
-        .filter(|node| node.has_tag_name("polyline"))
-        .filter_map(|node| node.attribute("points"))
-        .map(|points| {
-            points.split_whitespace().map(|pair| pair.split_once(',').unwrap().1).collect::<Vec<_>>()
-        })
-        .find(|heights| heights.len() == 2 && heights[0] == heights[1])
-        .unwrap()[0]
-        .parse::<f64>()
-        .unwrap();
+    // The surface is the longest of the level lines.
+    let level = |points: &str| -> Option<[f64; 2]> {
+        let [left, right] = points.split_whitespace().collect::<Vec<_>>()[..] else { return None };
+        let [(from, height), (to, same)] = [left, right].map(|pair| pair.split_once(',').unwrap());
+        (height == same)
+            .then(|| [to.parse::<f64>().unwrap() - from.parse::<f64>().unwrap(), height.parse().unwrap()])
+    };
+    let lines = picture.descendants().filter(|node| node.has_tag_name("polyline"));
+    let levels = lines.filter_map(|node| level(node.attribute("points").unwrap()));
+    let [_, surface] = levels.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap();
     let [(_, corners)] = &curves(&picture)[..] else { panic!("one curve") };
     let values = diagram["series"][0]["total"].as_array().unwrap();
     for ((corner, value), angle) in
