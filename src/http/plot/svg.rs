@@ -17,10 +17,10 @@ pub(super) fn document(drawn: &str, plot: &Plot, values: &ValueAxis, options: &O
     let _ = write!(
         text,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {}0 {}0\" role=\"img\" font-family=\"{FONT}\" fill=\"none\" stroke-width=\"{LINE}\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
+         viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"{FONT}\" fill=\"none\" stroke-width=\"{LINE}\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
          <desc>{}</desc>\n",
-        width,
-        height,
+        options.units().0,
+        options.units().1,
         escaped(&plot.title),
         escaped(&description(plot, values, options)),
     );
