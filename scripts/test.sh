@@ -55,6 +55,8 @@ scripts/replicas.sh
 passes
 step "examples and generated clients"
 scripts/clients.sh | tee -a "$log"
+step "the page in a browser"
+scripts/browser.sh --binary "$REFLECTANCE_BINARY" | tee -a "$log"
 step "the container"
 scripts/container.sh --binary "$REFLECTANCE_BINARY" | tee -a "$log"
 

@@ -26,6 +26,7 @@ BLACK_BOX = [
     ("every value of the oracle that is asked over HTTP", ["cargo", "test", "--quiet", "--test", "golden", "api"]),
     ("examples and generated clients", ["scripts/clients.sh"]),
     ("schemathesis", ["scripts/schemathesis.sh", "20"]),
+    ("the service's own tests, each with containers of its own", ["cargo", "test", "--quiet", "--test", "api", "--", "--test-threads", "4"]),
 ]
 
 
@@ -158,7 +159,13 @@ def service(checks, tests):
         checks.that("looks names up", named == 0)
         wrong = podman("exec", NAME, "/reflectance", "health", "--url", "http://localhost:8081", check=False)
         checks.that("would be unhealthy where nobody answers", wrong == 1)
-        black_box(checks, f"http://{address}", tests)
+        try:
+            black_box(checks, f"http://{address}", tests)
+        finally:
+            # Those whose podman was killed, as tests do to what they started.
+            left = podman("ps", "--all", "--quiet", "--filter", "label=reflectance=test").split()
+            if left:
+                podman("rm", "--force", "--time", "0", *left)
         begin = time.monotonic()
         podman("stop", "--time", "40", NAME)
         code = inspect("container", NAME)["State"]["ExitCode"]
@@ -169,7 +176,10 @@ def service(checks, tests):
 
 def black_box(checks, url, tests):
     """The tests that know nothing but a URL."""
-    environment = os.environ | {"REFLECTANCE_URL": url}
+    environment = os.environ | {
+        "REFLECTANCE_URL": url,
+        "REFLECTANCE_SERVER": str(ROOT / "scripts" / "container" / "run.sh"),
+    }
     for what, command in tests:
         begin = time.monotonic()
         ended = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)

@@ -2,6 +2,7 @@
 
 use super::coding::{Coding, Wanted};
 use super::problem::{Kind, Problem};
+use axum::body::Bytes;
 use axum::extract::{FromRequestParts, Request};
 use axum::http::request::Parts;
 use axum::http::uri::PathAndQuery;
@@ -132,8 +133,37 @@ pub(crate) async fn document(known: &Known, content_type: &'static str, body: &'
 }
 
 /// A document that depends on how the service was started.
-pub(crate) async fn configured(known: &Known, content_type: &'static str, body: Vec<u8>) -> Response {
+pub(crate) async fn configured<B>(known: &Known, content_type: &'static str, body: B) -> Response
+where
+    B: AsRef<[u8]> + axum::response::IntoResponse,
+{
     sent(known, Lasts::Run, content_type, body).await
+}
+
+/// A file whose path follows from its content, in this coding already or in none: it keeps for ever.
+pub(crate) async fn lasting(
+    known: &Known,
+    path: &str,
+    content_type: &'static str,
+    coding: Option<Coding>,
+    body: Bytes,
+) -> Response {
+    let known = Known {
+        tags: known.tags.clone(),
+        coding: coding.or(known.coding),
+        is_versioned: true,
+        is_private: known.is_private,
+    };
+    let answer = async {
+        let mut response = ([(header::CONTENT_TYPE, content_type)], body).into_response();
+        if let Some(coding) = coding {
+            let name = HeaderValue::from_static(coding.name());
+            response.headers_mut().insert(header::CONTENT_ENCODING, name);
+        }
+        Ok(response)
+    };
+    let answer = known.answer(&known.tag(&path), Lasts::Version, answer).await;
+    answer.unwrap_or_else(axum::response::IntoResponse::into_response)
 }
 
 async fn sent<B>(known: &Known, lasts: Lasts, content_type: &'static str, body: B) -> Response

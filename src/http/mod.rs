@@ -13,6 +13,7 @@ mod input;
 mod link;
 mod negotiate;
 mod openapi;
+mod page;
 mod plot;
 mod problem;
 mod routes;

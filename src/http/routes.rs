@@ -7,6 +7,7 @@ use super::api::{
 };
 use super::edge::not_found;
 use super::openapi;
+use super::page;
 use super::problem::Problem;
 use axum::Router;
 use utoipa::openapi::OpenApi;
@@ -42,10 +43,10 @@ pub(super) fn document() -> OpenApi {
     openapi::complete(documented().into_openapi())
 }
 
-/// The patterns of all paths, those of the reference among them.
+/// The patterns of all paths, those of the page and the reference among them.
 pub(super) fn patterns() -> Vec<String> {
     let documented = documented().into_openapi().paths.paths.into_keys();
-    documented.chain(["/", "/docs", "/docs/{*rest}"].map(str::to_owned)).collect()
+    documented.chain(["/", "/assets/{*rest}", "/docs", "/docs/{*rest}"].map(str::to_owned)).collect()
 }
 
 /// The service's routes.
@@ -53,6 +54,7 @@ pub(super) fn routes(app: App) -> Router {
     let (router, _) = documented().split_for_parts();
     router
         .merge(documents::reference())
+        .merge(page::routes())
         .fallback(|| async { Err::<(), Problem>(not_found()) })
         .with_state(app)
 }

@@ -214,6 +214,16 @@ impl Sweep {
         self.axis
     }
 
+    /// Where it starts and ends.
+    pub fn ends(&self) -> (SweepAngle, SweepAngle) {
+        self.ends
+    }
+
+    /// How it is divided.
+    pub fn division(&self) -> Division {
+        self.division
+    }
+
     /// Where it stops, degrees.
     pub fn positions(&self) -> &[f64] {
         &self.positions

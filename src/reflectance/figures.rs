@@ -195,14 +195,25 @@ pub struct Panel {
     pub table: Table,
 }
 
+/// What a panel shows: a scene and a sweep through its directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// What it shows.
+    pub label: &'static str,
+    /// The scene.
+    pub scene: Scene,
+    /// The sweep.
+    pub sweep: Sweep,
+}
+
 impl Figure {
     /// Whether the report draws it as a polar plot.
     pub const fn is_polar(&self) -> bool {
         matches!(self.content, Content::Components { .. })
     }
 
-    /// Computes the figure.
-    pub fn evaluate(&self, log10: bool) -> Result<Vec<Panel>, OutOfBounds> {
+    /// The scenes behind the panels; none for figures 18 and 19, which plot a formula.
+    pub fn views(&self) -> Result<Vec<View>, OutOfBounds> {
         let bs = "Beckmann-Spizzichino (47)";
         match self.content {
             Content::Heights { sigma_h, t, lambda, shows } => {
@@ -212,25 +223,23 @@ impl Figure {
                 };
                 let lobe = || scene(&spike_too[..1], Method::Auto);
                 match shows {
-                    Shows::Total => {
-                        Ok(vec![panel(bs, scene(&spike_too, Method::Auto)?, &over_view(), log10)?])
-                    }
+                    Shows::Total => Ok(vec![view(bs, scene(&spike_too, Method::Auto)?, over_view()?)]),
                     Shows::Magnified => {
-                        let close = sweep(SweepAxis::ThetaR, (20.0, 40.0), 0.05, &[30.0]);
-                        Ok(vec![panel(bs, scene(&spike_too, Method::Auto)?, &close, log10)?])
+                        let close = sweep(SweepAxis::ThetaR, (20.0, 40.0), 0.05, &[30.0])?;
+                        Ok(vec![view(bs, scene(&spike_too, Method::Auto)?, close)])
                     }
-                    Shows::Lobe => Ok(vec![panel(bs, lobe()?, &over_view(), log10)?]),
-                    Shows::LobeOverSource => Ok(vec![panel(bs, lobe()?, &over_source(), log10)?]),
+                    Shows::Lobe => Ok(vec![view(bs, lobe()?, over_view()?)]),
+                    Shows::LobeOverSource => Ok(vec![view(bs, lobe()?, over_source()?)]),
                     Shows::LobeAndRough => Ok(vec![
-                        panel(bs, lobe()?, &over_view(), log10)?,
-                        panel(ROUGH, scene(&spike_too[..1], Method::Rough)?, &over_view(), log10)?,
+                        view(bs, lobe()?, over_view()?),
+                        view(ROUGH, scene(&spike_too[..1], Method::Rough)?, over_view()?),
                     ]),
                 }
             }
             Content::Facets { sigma_alpha, axis } => {
                 let sweep = if axis == SweepAxis::ThetaR { over_view() } else { over_source() };
                 let scene = torrance_sparrow(FacetSlope::new(sigma_alpha)?, Some(SpecularScale::new(1.0)?))?;
-                Ok(vec![panel(TS, scene, &sweep, log10)?])
+                Ok(vec![view(TS, scene, sweep?)])
             }
             Content::BothModels { sigma_alpha } => {
                 let slope = FacetSlope::new(sigma_alpha)?;
@@ -242,42 +251,46 @@ impl Figure {
                     &[Component::SpecularLobe],
                     Method::Rough,
                 )?;
-                Ok(vec![
-                    panel(TS, torrance_sparrow(slope, None)?, &over_view(), log10)?,
-                    panel(ROUGH, rough, &over_view(), log10)?,
-                ])
+                let facets = torrance_sparrow(slope, None)?;
+                Ok(vec![view(TS, facets, over_view()?), view(ROUGH, rough, over_view()?)])
             }
+            Content::Components { axis } => {
+                let scene = components_of_section_5::scene()?;
+                let sweep = sweep(axis, (-89.5, 89.5), 0.5, &[components_of_section_5::FIXED_ANGLE])?;
+                Ok(vec![view("unified model of section 5.1", scene, sweep)])
+            }
+            Content::Fresnel | Content::Attenuation => Ok(Vec::new()),
+        }
+    }
+
+    /// Computes the figure.
+    pub fn evaluate(&self, log10: bool) -> Result<Vec<Panel>, OutOfBounds> {
+        match self.content {
             Content::Fresnel => {
                 Ok(vec![Panel { label: "Fresnel (62), (63)", scene: None, table: fresnel()? }])
             }
             Content::Attenuation => {
                 Ok(vec![Panel { label: "V-grooves (65)", scene: None, table: attenuation()? }])
             }
-            Content::Components { axis } => {
-                let scene = components_of_section_5::scene()?;
-                let sweep = sweep(axis, (-89.5, 89.5), 0.5, &[components_of_section_5::FIXED_ANGLE]);
-                Ok(vec![panel("unified model of section 5.1", scene, &sweep, log10)?])
-            }
+            _ => self.views()?.into_iter().map(|view| view.evaluate(log10)).collect(),
         }
+    }
+}
+
+impl View {
+    fn evaluate(self, log10: bool) -> Result<Panel, OutOfBounds> {
+        let Self { label, scene, sweep } = self;
+        let output = Output { log10, per_direction: false };
+        let table = sweep.evaluate(&scene, Quantity::Radiance, output, label)?;
+        Ok(Panel { label, scene: Some(scene), table })
     }
 }
 
 const TS: &str = "Torrance-Sparrow (70)";
 const ROUGH: &str = "Beckmann-Spizzichino, rough (49)";
 
-fn panel(
-    label: &'static str,
-    scene: Scene,
-    sweep: &Result<Sweep, OutOfBounds>,
-    log10: bool,
-) -> Result<Panel, OutOfBounds> {
-    let table = sweep.as_ref().map_err(|e| *e)?.evaluate(
-        &scene,
-        Quantity::Radiance,
-        Output { log10, per_direction: false },
-        label,
-    )?;
-    Ok(Panel { label, scene: Some(scene), table })
+fn view(label: &'static str, scene: Scene, sweep: Sweep) -> View {
+    View { label, scene, sweep }
 }
 
 fn over_view() -> Result<Sweep, OutOfBounds> {

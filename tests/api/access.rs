@@ -41,7 +41,7 @@ fn with_key(server: &Server, path: &str, key: &str) -> Response {
 fn without_a_key_there_is_no_answer_but_to_what_is_open() {
     let file = KeysFile::new("open", &format!("# clients\nfirst {KEY}\nsecond {OTHER}\n"));
     let server = Server::with(&["--api-keys-file", file.path()]);
-    for path in ["/livez", "/readyz", "/docs/", "/openapi.json"] {
+    for path in ["/", "/livez", "/readyz", "/docs/", "/openapi.json"] {
         assert_eq!(server.get(path).status(), 200, "{path}");
     }
     for path in ["/v1/figures", "/v1/figures/18", "/metrics", "/v1/nothing", "/nothing", "//livez", "/livez/"]

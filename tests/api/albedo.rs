@@ -117,6 +117,44 @@ fn every_format_has_the_same_numbers() {
 }
 
 #[test]
+fn a_spectrum_has_the_albedos_of_its_wavelengths() {
+    let server = Server::start();
+    let mut body = scene(&json!([0, 70]));
+    body["surface"]["medium"] = json!({"material": "Cu"});
+    let at = |wavelengths: Value| {
+        let mut body = body.clone();
+        body["illumination"]["wavelength_um"] = wavelengths;
+        body
+    };
+    let spectrum = server.answer("/v1/albedo", &at(json!([0.45, 0.65])));
+    let mut rows = Vec::new();
+    for (index, wavelength) in [0.45, 0.65].into_iter().enumerate() {
+        let mut single = server.answer("/v1/albedo", &at(json!(wavelength)));
+        rows.extend(numbers(&single, "total").into_iter().map(|total| (wavelength, total)));
+        single.as_object_mut().unwrap().remove("quantity");
+        single["wavelength_um"] = json!(wavelength);
+        assert_eq!(spectrum["spectrum"][index], single);
+    }
+    assert!(rows[0].1 < rows[2].1, "copper is red: {rows:?}");
+    let request = server.request("POST", "/v1/albedo").header("accept", "text/csv");
+    let request = request.header("content-type", "application/json");
+    let text = request.body(at(json!([0.45, 0.65])).to_string()).send().unwrap().text().unwrap();
+    assert!(text.starts_with("wavelength_um,theta_i_deg,total,"), "{text}");
+    let found: Vec<(f64, f64)> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            (cells[0], cells[2])
+        })
+        .collect();
+    assert_eq!(found, rows);
+    let few = Server::with(&["--incidence-limit", "3"]);
+    let document = problem(few.post("/v1/albedo", at(json!([0.45, 0.65])).to_string()), 422);
+    assert_eq!(errors(&document), [("/theta_i_deg".to_owned(), "too_many".to_owned())]);
+}
+
+#[test]
 fn what_is_wrong_is_named_and_the_limit_holds() {
     let server = Server::with(&["--incidence-limit", "3"]);
     let refused = |body: &Value| errors(&problem(server.post("/v1/albedo", body.to_string()), 422));

@@ -15,6 +15,7 @@ mod http2;
 mod in_force;
 mod limits;
 mod materials;
+mod page;
 mod plan;
 mod plots;
 mod properties;

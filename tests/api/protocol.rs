@@ -140,13 +140,6 @@ fn a_client_that_sends_before_it_listens_gets_its_answer() {
 }
 
 #[test]
-fn the_root_leads_to_the_reference() {
-    let server = Server::start();
-    let response = server.get("/");
-    assert_eq!((response.status().as_u16(), response.url().path()), (200, "/docs/"));
-}
-
-#[test]
 fn a_client_that_stops_sending_is_let_go() {
     let server = Server::with(&["--request-timeout-seconds", "0.3", "--idle-timeout-seconds", "0.3"]);
     let head = "POST /v1/radiance HTTP/1.1\r\nhost: x\r\ncontent-type: application/json\r\ncontent-length: 100\r\n\r\n{";

@@ -3,7 +3,7 @@
 
 mod columns;
 mod json;
-mod output;
+pub(crate) mod output;
 pub(crate) mod picture;
 mod table;
 mod text;

@@ -22,14 +22,14 @@ const AHEAD: usize = 2;
 const AT_ONCE: usize = 128 << 10;
 
 /// Where a large answer goes, part by part.
-pub(super) struct Output {
+pub(crate) struct Output {
     app: App,
     job: Arc<Job>,
     parts: mpsc::Sender<Result<Bytes, Problem>>,
 }
 
 /// Why an answer ends early.
-pub(super) enum End {
+pub(crate) enum End {
     /// Nobody waits for it.
     Unwanted,
     /// Something is wrong.
@@ -44,7 +44,7 @@ impl From<Problem> for End {
 
 impl Output {
     /// Sends a part.
-    pub(super) async fn send(&self, part: impl Into<Bytes>) -> Result<(), End> {
+    pub(crate) async fn send(&self, part: impl Into<Bytes>) -> Result<(), End> {
         let part = part.into();
         if part.is_empty() {
             return Ok(());
@@ -53,7 +53,7 @@ impl Output {
     }
 
     /// Does a piece of the work on the pool.
-    pub(super) async fn run<T: Send + 'static>(
+    pub(crate) async fn run<T: Send + 'static>(
         &self,
         work: impl FnOnce(&Job) -> T + Send + 'static,
     ) -> Result<T, End> {
@@ -65,12 +65,13 @@ impl Output {
         })
     }
 
-    fn stopped(&self) -> End {
+    /// Why a piece was told to stop.
+    pub(crate) fn stopped(&self) -> End {
         if self.job.is_exhausted() { End::Problem(cpu_time(&self.app)) } else { End::Unwanted }
     }
 
     /// Does pieces side by side and gives their results in order.
-    pub(super) fn run_all<'a, T: Send + 'static, W: FnOnce(&Job) -> T + Send + 'static>(
+    pub(crate) fn run_all<'a, T: Send + 'static, W: FnOnce(&Job) -> T + Send + 'static>(
         &'a self,
         pieces: impl Iterator<Item = W> + Send + 'a,
     ) -> impl Stream<Item = Result<T, End>> + Send + 'a {
@@ -83,13 +84,15 @@ pub(super) fn cpu_time(app: &App) -> Problem {
     let limit = app.limits().cpu_time.as_secs_f64();
     Problem::new(
         Kind::CpuTime,
-        format!("the limit of a request is {limit} s of processor time; ask for fewer directions"),
+        format!(
+            "the limit of a request is {limit} s of processor time; ask for fewer directions or a coarser tolerance"
+        ),
     )
 }
 
 /// Starts an answer and returns it with its first part. What is wrong before that is a problem of its own; after it, the
 /// connection is cut, which is the only way left to say so.
-pub(super) async fn begin<F: Future<Output = Result<(), End>> + Send + 'static>(
+pub(crate) async fn begin<F: Future<Output = Result<(), End>> + Send + 'static>(
     app: &App,
     deadline: Deadline,
     turn: Turn,

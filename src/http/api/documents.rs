@@ -5,8 +5,7 @@ use crate::http::link::{Known, document};
 use crate::http::negotiate::Format;
 use crate::http::openapi::openapi_json;
 use axum::Router;
-use axum::response::{Redirect, Response};
-use axum::routing::get;
+use axum::response::Response;
 use std::sync::LazyLock;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
@@ -26,10 +25,9 @@ pub(crate) async fn openapi(known: Known) -> Response {
     document(&known, Format::Json.content_type(), DOCUMENT.as_str()).await
 }
 
-/// The reference at `/docs`, where `/` leads; its pages and scripts are part of the program.
+/// The reference at `/docs`; its pages and scripts are part of the program.
 pub(crate) fn reference() -> Router<App> {
     // Without "none" the page asks a public validator about every document that is not on localhost.
     let config = Config::from("/openapi.json").validator_url("none");
     Router::from(SwaggerUi::new("/docs").config(config))
-        .route("/", get(|| async { Redirect::temporary("/docs/") }))
 }

@@ -1,5 +1,6 @@
 //! `GET /v1/figures` and `GET /v1/figures/{id}`: the report's diagrams with their captions' parameters.
 
+use super::figure_links::links;
 use super::responses::{GetProblems, list};
 use crate::http::app::App;
 use crate::http::compute;
@@ -14,6 +15,7 @@ use crate::http::negotiate::{Drawable, Format, JsonOnly};
 use crate::http::plot::{self, Form, Options, Picture, PlotWire, Scale};
 use crate::http::problem::{Kind, Problem};
 use crate::reflectance::figures::{FIGURES, Figure, find};
+use crate::reflectance::quantity::OutOfBounds;
 use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use axum::http::header;
@@ -36,6 +38,9 @@ pub(crate) struct FigureSummary {
     /// Where it is.
     #[schema(example = "/v1/figures/13a")]
     href: String,
+    /// The diagrams that it is made of, as links: from there every parameter can be changed. None for figures 18 and 19,
+    /// which plot a formula.
+    diagrams: Vec<String>,
 }
 
 /// The figures that the report computes.
@@ -101,13 +106,16 @@ impl IntoResponses for NoFigure {
 )]
 pub(crate) async fn index(_: JsonOnly, known: Known, _: NoQuery) -> Result<Response, Problem> {
     linked(&known, &"/v1/figures", async {
-        let figures = FIGURES.iter().map(|figure| FigureSummary {
-            id: figure.id,
-            title: figure.title,
-            parameters: figure.parameters,
-            href: format!("/v1/figures/{}", figure.id),
+        let figures = FIGURES.iter().map(|figure| {
+            Ok(FigureSummary {
+                id: figure.id,
+                title: figure.title,
+                parameters: figure.parameters,
+                href: format!("/v1/figures/{}", figure.id),
+                diagrams: links(figure).map_err(|error| broken(figure, error))?,
+            })
         });
-        json::response(&FigureList { figures: figures.collect() }, 16 << 10)
+        json::response(&FigureList { figures: figures.collect::<Result<_, Problem>>()? }, 32 << 10)
     })
     .await
 }
@@ -184,11 +192,13 @@ fn no_figure() -> Problem {
     Problem::new(Kind::NotFound, format!("The report has no such figure. It has: {ids}"))
 }
 
+fn broken(figure: &Figure, error: OutOfBounds) -> Problem {
+    tracing::error!(%error, figure = figure.id, "a preset is out of range");
+    Problem::internal()
+}
+
 fn make(figure: &'static Figure, answer: Answer) -> Result<Vec<u8>, Problem> {
-    let panels = figure.evaluate(answer.has_logarithms()).map_err(|error| {
-        tracing::error!(%error, figure = figure.id, "a preset is out of range");
-        Problem::internal()
-    })?;
+    let panels = figure.evaluate(answer.has_logarithms()).map_err(|error| broken(figure, error))?;
     match answer {
         Answer::Drawn(picture, options) => {
             plot::draw(&plot::of_figure(figure, &panels, &options), picture, &options)

@@ -5,6 +5,7 @@ pub(super) mod answer;
 pub(super) mod diagrams;
 pub(super) mod documents;
 pub(super) mod examples;
+mod figure_links;
 pub(super) mod figures;
 pub(super) mod health;
 pub(super) mod image_irradiance;

@@ -28,15 +28,25 @@ impl Wanted {
         if !headers.contains_key(header::ACCEPT_ENCODING) {
             return Self::default();
         }
-        let mut weights = Weights::default();
-        for value in headers.get_all(header::ACCEPT_ENCODING) {
-            value.to_str().unwrap_or_default().split(',').for_each(|item| weights.note(item));
-        }
-        weights.best()
+        Weights::of(headers).best()
+    }
+
+    /// Whether a client takes answers in this coding, be there others that it likes better.
+    pub(crate) fn takes(headers: &HeaderMap, coding: Coding) -> bool {
+        let weights = Weights::of(headers);
+        weights.named[coding as usize].or(weights.rest).is_some_and(|weight| weight > 0.0)
     }
 }
 
 impl Weights {
+    fn of(headers: &HeaderMap) -> Self {
+        let mut weights = Self::default();
+        for value in headers.get_all(header::ACCEPT_ENCODING) {
+            value.to_str().unwrap_or_default().split(',').for_each(|item| weights.note(item));
+        }
+        weights
+    }
+
     fn note(&mut self, item: &str) {
         let Some((name, weight)) = parse(item) else { return };
         let place = if name == "*" {
@@ -130,6 +140,24 @@ mod tests {
         ] {
             assert_eq!(wanted(accept).always, always, "{accept}");
         }
+    }
+
+    #[test]
+    fn a_coding_is_taken_beside_others() {
+        for (accept, takes) in [
+            ("gzip, deflate, br, zstd", true),
+            ("*", true),
+            ("gzip;q=0.1, zstd", true),
+            ("zstd", false),
+            ("gzip;q=0, *", false),
+            ("", false),
+            ("*;q=0", false),
+        ] {
+            let mut headers = HeaderMap::new();
+            headers.insert(header::ACCEPT_ENCODING, HeaderValue::from_static(accept));
+            assert_eq!(Wanted::takes(&headers, Coding::Gzip), takes, "{accept}");
+        }
+        assert!(!Wanted::takes(&HeaderMap::new(), Coding::Gzip));
     }
 
     #[test]

@@ -82,7 +82,7 @@ pub(super) fn class(pattern: &str) -> Class {
         "/livez" | "/readyz" => Class::Health,
         "/metrics" => Class::Metrics,
         "/" | "/openapi.json" => Class::Open,
-        _ if pattern.starts_with("/docs") || pattern.starts_with("/problems") => Class::Open,
+        _ if ["/assets", "/docs", "/problems"].iter().any(|open| pattern.starts_with(open)) => Class::Open,
         _ => Class::Guarded,
     }
 }
@@ -133,6 +133,7 @@ mod tests {
             ("/livez", "/livez", Class::Health),
             ("/metrics", "/metrics", Class::Metrics),
             ("/", "/", Class::Open),
+            ("/assets/0/app.js", "/assets/{*rest}", Class::Open),
             ("/docs", "/docs", Class::Open),
             ("/docs/", "/docs/{*rest}", Class::Open),
             ("/docs/swagger-ui.css", "/docs/{*rest}", Class::Open),

@@ -77,6 +77,25 @@ impl AlbedoScene {
         albedos.iter().enumerate().filter_map(infinite).collect()
     }
 
+    /// Whether there is an [`Self::excess`]: the model has specular components, and all are evaluated.
+    pub fn has_excess(&self) -> bool {
+        let components = self.0.parameters().model.components();
+        let mut specular =
+            components.iter().filter(|&&component| component != Component::DiffuseLobe).peekable();
+        specular.peek().is_some() && specular.all(|component| self.0.evaluated().contains(component))
+    }
+
+    /// Whether 1 − e^{−g} is known.
+    pub fn has_heights(&self) -> bool {
+        self.0.relative_roughness().is_some()
+    }
+
+    /// Whether spike and lobe are both evaluated.
+    pub fn has_shares(&self) -> bool {
+        let both = [Component::SpecularSpike, Component::SpecularLobe];
+        both.iter().all(|component| self.0.evaluated().contains(component))
+    }
+
     /// Lobe and spike together less what a smooth plate reflects, F′ of (63) at θ_i; none where one of the model's is
     /// not evaluated, or the model has none.
     pub fn excess(&self, albedo: &Albedo) -> Option<f64> {

@@ -12,7 +12,7 @@ mod tests;
 
 use super::degrees::SinCos;
 use super::estimate::Estimate;
-use super::fresnel::{Energy, Medium};
+use super::fresnel::{Energy, Medium, RefractiveIndex};
 use super::fresnel_average::FresnelAverage;
 use super::fresnel_average::table::{Reflectivity, SlopeAverages};
 use super::geometry::{FacetAngles, Geometry};
@@ -20,7 +20,7 @@ use super::numeric::EPSILON;
 use super::numeric::lobe_series::patches;
 use super::numeric::scaled::Scaled;
 use super::outline::{Outline, Parameter, SceneError};
-use super::quantity::SourceZenith;
+use super::quantity::{SourceZenith, Wavelength};
 use super::scene::{Component, Model, Scene, SceneParameters};
 use super::shadowing::ShadowingFunction;
 use super::unified;
@@ -71,6 +71,12 @@ impl AlbedoScene {
     /// The scene, with the components that are evaluated.
     pub fn scene(&self) -> &Scene {
         &self.0
+    }
+
+    /// The same scene in another light: see [`Scene::with_light`].
+    #[must_use]
+    pub fn with_light(&self, wavelength: Wavelength, index: Option<RefractiveIndex>) -> Self {
+        Self(self.0.with_light(wavelength, index))
     }
 
     /// Whether nothing has to be integrated.

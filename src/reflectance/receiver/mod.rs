@@ -32,9 +32,8 @@ use core::ops::Range;
 
 /// Rectangles of a rule at most: some 30 ms.
 const MOST_RECTANGLES: usize = 1000;
-/// The error stated is so many times what the rule says: where all is smooth, and where the squares hold kinks.
+/// The error stated is so many times what the rule says.
 const CAUTION: f64 = 2.0;
-const CAUTION_AT_KINKS: f64 = 4.0;
 /// Of the tolerance, what the lobe may be off at each viewer. The rule counts it twice and has what is left.
 const SHARE_OF_VIEWERS: f64 = 0.02;
 /// Rounding of a viewer's place and of what surrounds the lobe there, in ε, and for each power of e by which the lobe falls.
@@ -129,13 +128,12 @@ impl Receiver {
         Some(Reflection { total: Estimate::total(&components), components, evaluated_by })
     }
 
-    /// Kinks are G's of (65), and where n < 1 begins to reflect all.
-    fn caution(&self) -> f64 {
+    /// Whether the lobe has kinks: those of G (65), and where n < 1 begins to reflect all.
+    fn has_kinks(&self) -> bool {
         let medium = self.scene.parameters().surface.medium;
         let is_critical =
             matches!(medium, Medium::Index(index) if index.n.get() < 1.0 && index.k.get() < 0.5);
-        let is_folded = self.scene.shadowing_function() == ShadowingFunction::VGroove;
-        if is_folded || is_critical { CAUTION_AT_KINKS } else { CAUTION }
+        is_critical || self.scene.shadowing_function() == ShadowingFunction::VGroove
     }
 
     /// tan α of the facets that make the lobe, about.
@@ -188,9 +186,10 @@ impl Receiver {
         let unit = if most.is_zero() || !most.is_finite() { Scaled::ONE } else { most };
         let mut nodes = Nodes::new();
         let goal = Goal {
-            tolerance: self.tolerance / self.caution(),
+            tolerance: self.tolerance / CAUTION,
             beside: (beside / unit).to_f64(),
             most: MOST_RECTANGLES,
+            has_kinks: self.has_kinks(),
         };
         let fill = |square: usize, grid: &mut Grid| nodes.fill(kernel, cone, square, unit, grid);
         let sum = cubature::integrate(cone.squares(), goal, is_over, fill)?;
@@ -201,7 +200,7 @@ impl Receiver {
             // All of it is in a rim too thin for any point of the rule.
             return Some(Estimate { value: Scaled::ZERO, error: unit * PI, least: Scaled::ZERO });
         }
-        let error = self.caution() * sum.error + cone.rim(slope) * sum.value;
+        let error = CAUTION * sum.error + cone.rim(slope) * sum.value;
         let least = Scaled::new((sum.value - error).max(0.0));
         let whole = Estimate { value: Scaled::new(sum.value), error: Scaled::new(error), least };
         Some(whole.scaled_by(unit))

@@ -1,5 +1,5 @@
 use super::cone::Cone;
-use super::{Nodes, Receiver};
+use super::{CAUTION, Nodes, Receiver};
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::directions::{Angles, Directions};
 use crate::reflectance::estimate::Estimate;
@@ -77,7 +77,12 @@ fn in_frame(
     let unit = kernel.lobe(&cone.nearest(), None).unwrap().value * cone.nearest().cos_r;
     let unit = if unit.is_zero() || !unit.is_finite() { Scaled::ONE } else { unit };
     let mut nodes = Nodes::new();
-    let goal = Goal { tolerance: receiver.tolerance / receiver.caution(), beside: 0.0, most: 3000 };
+    let goal = Goal {
+        tolerance: receiver.tolerance / CAUTION,
+        beside: 0.0,
+        most: 3000,
+        has_kinks: receiver.has_kinks(),
+    };
     let sum = cubature::integrate(
         cone.squares(),
         goal,
@@ -86,7 +91,7 @@ fn in_frame(
     )
     .unwrap();
     let rim = cone.rim(receiver.slope(SinCos::of_degrees(at.0.get())));
-    let error = receiver.caution() * sum.error + rim * sum.value;
+    let error = CAUTION * sum.error + rim * sum.value;
     let all = Estimate { value: Scaled::new(sum.value), error: Scaled::new(error), least: Scaled::ZERO };
     (all.scaled_by(unit), cone.projected().0.to_f64())
 }
