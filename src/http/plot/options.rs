@@ -95,7 +95,8 @@ named! {
 }
 
 object! {
-    /// How a picture is drawn. Only answers as `image/svg+xml` and `image/png` read it.
+    /// How a picture is drawn. Only answers as `image/svg+xml` and `image/png` read it. Where points lie closer than half a
+    /// pixel, the first, the least, the largest and the last of them are drawn: no peak is lost.
     PlotWire as "Plot" {
         /// `cartesian`: the value over the swept angle; or `polar`: the value as the distance from the origin, the angle
         /// from the surface normal. When absent or null: as in the report for a figure, `cartesian` for a diagram.
