@@ -1,7 +1,6 @@
 //! What stands above the axes: the title, the parameters, the legend.
 
-use super::options::Options;
-use super::style::{Style, bold, ems, letters, placed, stroke};
+use super::style::{Style, TENTHS, bold, ems, letters, placed, stroke};
 use super::ticks::ValueAxis;
 use super::{Area, Drawn, Plot, tenths};
 use plotters::element::Text;
@@ -11,7 +10,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 /// Sizes of letters, pixels.
 const TITLE: f64 = 15.0;
 /// How much wider bold letters are.
-const BOLD: f64 = 1.16;
+const BOLD: f64 = 1.1;
 const SMALL: f64 = 12.5;
 const LEGEND: f64 = 13.0;
 /// From one line to the next, in ems.
@@ -22,9 +21,12 @@ const MARGIN: f64 = 16.0;
 const SAMPLE: f64 = 26.0;
 const GAP: f64 = 6.0;
 const APART: f64 = 16.0;
-/// Entries of a legend that are all written; of more, so many.
-const ALL: usize = 12;
-const SOME: usize = 6;
+/// Colours that a legend has at most; fewer where they take too much of the height.
+const COLOURS: [usize; 4] = [12, 6, 4, 2];
+/// Of more colours than that, so many at most.
+const SAMPLES: usize = 6;
+/// The share of the height that the legend may take.
+const LEGEND_SHARE: f64 = 0.28;
 /// The share of the height that may be taken.
 const SHARE: f64 = 0.42;
 
@@ -34,14 +36,22 @@ pub(super) fn draw(
     plot: &Plot,
     values: &ValueAxis,
     style: &Style,
-    options: &Options,
 ) -> Result<i32, Box<dyn std::error::Error + Send + Sync>> {
-    let width = options.width as f64 - 2.0 * MARGIN;
-    let mut pen = Pen { root, y: 12.0, limit: SHARE * options.height as f64, kinds: plot.dashes.len() };
+    let (width, height) = root.dim_in_pixel();
+    let [width, height] = [width, height].map(|tenths| f64::from(tenths) / TENTHS);
+    let width = width - 2.0 * MARGIN;
+    let mut pen = Pen { root, y: 12.0, limit: SHARE * height, kinds: plot.dashes.len() };
     pen.lines(&wrapped(&plot.title, width / (TITLE * BOLD)), TITLE, &bold(TITLE, style.text))?;
     pen.y += 2.0;
-    let entries = entries(plot);
-    let rows = rows(&entries, width);
+    let mut entries = Vec::new();
+    let mut rows = Vec::new();
+    for most in COLOURS {
+        entries = legend(plot, most);
+        rows = in_rows(&entries, width);
+        if rows.len() as f64 * LEGEND * LEADING <= LEGEND_SHARE * height {
+            break;
+        }
+    }
     // The legend is worth more than the last lines of parameters.
     let kept = rows.len() as f64 * LEGEND * LEADING;
     pen.limit -= kept;
@@ -121,14 +131,15 @@ impl Entry {
     }
 }
 
-/// The legend: every colour, or some of many, then every kind of line.
-fn entries(plot: &Plot) -> Vec<Entry> {
+/// The legend: every colour, or some where there are more than so many, then every kind of line.
+fn legend(plot: &Plot, most: usize) -> Vec<Entry> {
     let colours = plot.colours.len();
     let mut entries = Vec::new();
     let coloured = |index: usize| Entry { text: plot.colours[index].clone(), line: Some((Some(index), 0)) };
-    if colours > ALL {
+    if colours > most {
+        let samples = most.min(SAMPLES);
         entries.push(Entry { text: format!("{colours} curves, among them"), line: None });
-        entries.extend((0..SOME).map(|part| coloured(part * (colours - 1) / (SOME - 1))));
+        entries.extend((0..samples).map(|part| coloured(part * (colours - 1) / (samples - 1))));
     } else {
         entries.extend((0..colours).map(coloured));
     }
@@ -144,7 +155,7 @@ fn entries(plot: &Plot) -> Vec<Entry> {
 }
 
 /// Which entries stand in which row.
-fn rows(entries: &[Entry], width: f64) -> Vec<std::ops::Range<usize>> {
+fn in_rows(entries: &[Entry], width: f64) -> Vec<std::ops::Range<usize>> {
     let mut rows = Vec::new();
     let (mut first, mut taken) = (0, 0.0);
     for (index, entry) in entries.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Pictures of diagrams: what they show, and how it is drawn.
 //!
 //! plotters draws lines, marks and text as SVG; `svg.rs` makes a document of it that says what it shows, `png.rs` has
-//! resvg turn that into pixels, with a font of its own. Coordinates are in tenths of a pixel, since plotters places things
-//! at whole units.
+//! resvg turn that into pixels, with a font of its own. Coordinates are in tenths of a pixel of a picture of
+//! usual size, since plotters places things at whole units.
 
 mod cartesian;
 mod header;
@@ -100,10 +100,9 @@ pub(crate) fn draw(plot: &Plot, picture: Picture, options: &Options) -> Result<V
 }
 
 fn on(text: &mut String, plot: &Plot, values: &ValueAxis, style: &Style, options: &Options) -> Drawn {
-    let size = [options.width, options.height].map(|pixels| u32::try_from(pixels * 10).unwrap_or(u32::MAX));
-    let root = SVGBackend::with_string(text, (size[0], size[1])).into_drawing_area();
+    let root = SVGBackend::with_string(text, options.units()).into_drawing_area();
     root.fill(&style.background)?;
-    let below = header::draw(&root, plot, values, style, options)?;
+    let below = header::draw(&root, plot, values, style)?;
     let (_, area) = root.split_vertically(below);
     match options.form {
         Form::Cartesian => cartesian::draw(&area, plot, values, style)?,

@@ -1,5 +1,6 @@
 //! How a picture is drawn, as requests say it.
 
+use super::style::TENTHS;
 use crate::http::input::object::object;
 use crate::http::input::wire::{Count, named};
 
@@ -94,7 +95,8 @@ named! {
 }
 
 object! {
-    /// How a picture is drawn. Only answers as `image/svg+xml` and `image/png` read it.
+    /// How a picture is drawn. Only answers as `image/svg+xml` and `image/png` read it. Where points lie closer than half a
+    /// pixel, the first, the least, the largest and the last of them are drawn: no peak is lost.
     PlotWire as "Plot" {
         /// `cartesian`: the value over the swept angle; or `polar`: the value as the distance from the origin, the angle
         /// from the surface normal. When absent or null: as in the report for a figure, `cartesian` for a diagram.
@@ -127,7 +129,24 @@ pub(crate) struct Options {
     pub(crate) height: usize,
 }
 
+/// The size in pixels at which letters have theirs: they grow and shrink with the picture, between these factors.
+const NATURAL: (f64, f64) = (600.0, 400.0);
+const FACTORS: (f64, f64) = (0.7, 2.0);
+
 impl Options {
+    /// Width and height in tenths of the unit in which letters and lines have their size.
+    pub(super) fn units(&self) -> (u32, u32) {
+        let (width, height) = (self.width as f64, self.height as f64);
+        let factor = (width / NATURAL.0).min(height / NATURAL.1).clamp(FACTORS.0, FACTORS.1);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "some ten thousand at most"
+        )]
+        let units = |pixels: f64| (TENTHS * pixels / factor).round() as u32;
+        (units(width), units(height))
+    }
+
     /// What was asked for; `form` is the natural one.
     pub(crate) fn of(wire: Option<&PlotWire>, form: Form) -> Self {
         let said = |of: fn(&PlotWire) -> Option<usize>| wire.and_then(of);

@@ -17,10 +17,10 @@ pub(super) fn document(drawn: &str, plot: &Plot, values: &ValueAxis, options: &O
     let _ = write!(
         text,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {}0 {}0\" role=\"img\" font-family=\"{FONT}\" fill=\"none\" stroke-width=\"{LINE}\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
+         viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"{FONT}\" fill=\"none\" stroke-width=\"{LINE}\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
          <desc>{}</desc>\n",
-        width,
-        height,
+        options.units().0,
+        options.units().1,
         escaped(&plot.title),
         escaped(&description(plot, values, options)),
     );
@@ -92,18 +92,40 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// A text whose indices (σ_h) are set lower. The text after one has to be raised again.
+/// A text whose indices (σ_h, c·a_f) are set lower. The text after one has to be raised again.
 fn lowered(text: &str) -> String {
-    const SMALLER: &str = "75%";
     let mut parts = text.split('_');
-    let mut set = parts.next().unwrap_or_default().to_owned();
+    let mut before = parts.next().unwrap_or_default();
+    let mut set = before.to_owned();
     for part in parts {
         let length = part.chars().next().map_or(0, char::len_utf8);
         let (index, rest) = part.split_at(length);
-        let _ = write!(set, "<tspan dy=\"0.2em\" font-size=\"{SMALLER}\">{index}</tspan>");
-        if !rest.is_empty() {
-            let _ = write!(set, "<tspan dy=\"-0.15em\">{rest}</tspan>");
-        }
+        let _ = if before.ends_with(['σ', 'θ', 'φ']) || before.ends_with("·a") {
+            let rest =
+                if rest.is_empty() { String::new() } else { format!("<tspan dy=\"-0.15em\">{rest}</tspan>") };
+            write!(set, "<tspan dy=\"0.2em\" font-size=\"75%\">{index}</tspan>{rest}")
+        } else {
+            write!(set, "_{part}")
+        };
+        before = part;
     }
     set
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lowered;
+
+    #[test]
+    fn indices_are_lowered_and_nothing_else() {
+        let low = |index: &str| format!("<tspan dy=\"0.2em\" font-size=\"75%\">{index}</tspan>");
+        assert_eq!(lowered("σ_h"), format!("σ{}", low("h")));
+        let [h, alpha] = [low("h"), low("α")];
+        assert_eq!(
+            lowered("σ_h/T, σ_α = 3°"),
+            format!("σ{h}<tspan dy=\"-0.15em\">/T, σ</tspan>{alpha}<tspan dy=\"-0.15em\"> = 3°</tspan>")
+        );
+        assert_eq!(lowered("a_b, no index"), "a_b, no index");
+        assert_eq!(lowered("plain"), "plain");
+    }
 }

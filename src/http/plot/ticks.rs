@@ -194,7 +194,7 @@ pub(super) fn short(value: f64) -> String {
         return value.to_string();
     }
     let magnitude = magnitude(value.abs());
-    if (-3..=4).contains(&magnitude) {
+    if (-3..=3).contains(&magnitude) {
         #[expect(clippy::cast_sign_loss, reason = "not below 0")]
         let decimals = (2 - magnitude).max(0) as usize;
         return minus(&format!("{value:.decimals$}"));
@@ -205,7 +205,7 @@ pub(super) fn short(value: f64) -> String {
 /// A value of which the decimal logarithm is known.
 pub(super) fn short_power(log10: f64) -> String {
     let exponent = (log10 + 1e-12).floor();
-    if (-3.0..=4.0).contains(&exponent) {
+    if (-3.0..=3.0).contains(&exponent) {
         return short(10f64.powf(log10));
     }
     format!("{:.2}×10{}", 10f64.powf(log10 - exponent), raised(&format!("{exponent:.0}")))
