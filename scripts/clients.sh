@@ -24,10 +24,12 @@ if [[ $(cat "$work/complete" 2>/dev/null) != "$wanted" ]]; then
     # Debian keeps venv in a package of its own.
     python3 -m venv "$work/venv" || { apt-get install -y -qq python3-venv >&2 && python3 -m venv "$work/venv"; }
     "$work/venv/bin/pip" install --quiet --disable-pip-version-check \
-        -r examples/python/requirements.txt -r tests/clients/requirements.txt
+        -r examples/python/requirements.txt -r tests/clients/requirements.txt &
+    python=$!
     mkdir -p "$work/node"
     cp tests/clients/package.json "$work/node"
     npm install --prefix "$work/node" --silent --no-audit --no-fund >&2
+    wait $python
     echo "$wanted" >"$work/complete"
 fi
 export PATH=$work/venv/bin:$PATH
@@ -74,13 +76,15 @@ rm -rf "$work/python" && mkdir -p "$work/python"
         --config "$OLDPWD/tests/clients/generator.yaml" --fail-on-warning
     cp "$OLDPWD/tests/clients/test_generated.py" .
     mypy --strict --follow-imports=silent test_generated.py
-)
+) &
+python=$!
 (
     cd "$work/node"
     npx openapi-typescript "$work/openapi.json" --output document.d.ts
     cp "$OLDPWD/tests/clients/generated.test.ts" "$OLDPWD/tests/clients/tsconfig.json" .
     npx tsc
 )
+wait $python
 
 passed=0
 # counted PATTERN COMMAND...: runs tests and adds up how many passed; any failure ends the script.
