@@ -46,7 +46,7 @@ mod page {
 
         let preloads: Vec<String> = files
             .iter()
-            .filter(|(name, _)| name.ends_with(".js"))
+            .filter(|(name, _)| extension(name) == Some("js"))
             .map(|(name, _)| format!("<link rel=\"modulepreload\" href=\"{directory}/{name}\">"))
             .collect();
         let html = fs::read_to_string(Path::new(SOURCE).join("index.html"))?
@@ -57,12 +57,17 @@ mod page {
         Ok(())
     }
 
+    fn extension(name: &str) -> Option<&str> {
+        Path::new(name).extension()?.to_str()
+    }
+
     /// Names and contents, in the order of the names.
     fn files() -> Result<Vec<(String, String)>, Box<dyn Error>> {
         let mut files = Vec::new();
         for entry in fs::read_dir(Path::new(SOURCE).join("assets"))? {
             let entry = entry?;
-            let name = entry.file_name().into_string().map_err(|name| format!("{name:?} is no name"))?;
+            let name =
+                entry.file_name().into_string().map_err(|name| format!("{} is no name", name.display()))?;
             files.push((name, fs::read_to_string(entry.path())?));
         }
         files.sort();
@@ -100,7 +105,7 @@ mod page {
         let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
         encoder.write_all(content)?;
         fs::write(&packed, encoder.finish()?)?;
-        let content_type = match Path::new(name).extension().and_then(|extension| extension.to_str()) {
+        let content_type = match extension(name) {
             Some("js") => "text/javascript; charset=utf-8",
             Some("css") => "text/css; charset=utf-8",
             Some("svg") => "image/svg+xml",
@@ -108,7 +113,7 @@ mod page {
         };
         writeln!(
             code,
-            "    File {{ path: \"{directory}/{name}\", content_type: \"{content_type}\", packed: include_bytes!({packed:?}) }},"
+            "    File {{ path: \"{directory}/{name}\", content_type: \"{content_type}\", packed: include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{name}.gz\")) }},"
         )?;
         Ok(())
     }

@@ -69,6 +69,14 @@ test("answers that come late are dropped: the last scene counts", async () => {
   await close();
 });
 
+test("a link that names no scene is about the first one", async () => {
+  const { page, close } = await open(browser, service.url, { hash: "plot=polar" });
+  const [first] = await plotted(page);
+  assert.equal(first.type, "scatterpolar");
+  assert.equal(await page.locator("#field-model").inputValue(), "beckmann_spizzichino");
+  await close();
+});
+
 test("a slider that moves fast asks seldom, and ends where it is", async () => {
   const { page, close } = await open(browser, service.url);
   let asked = 0;

@@ -2,8 +2,11 @@
 
 use crate::reflectance::diagram::{Division, Sweep};
 use crate::reflectance::figures::{Figure, View};
-use crate::reflectance::quantity::OutOfBounds;
+use crate::reflectance::quantity::{
+    CorrelationLength, FacetSlope, OutOfBounds, RmsHeight, SpecularScale, Wavelength,
+};
 use crate::reflectance::scene::{Components, Sensor};
+use crate::reflectance::shadowing::Shadowing;
 use std::fmt::{Display, Write as _};
 
 /// The query of a link while it grows.
@@ -31,13 +34,13 @@ fn link(view: &View) -> String {
     let scene = view.scene.parameters();
     let mut query = Query(format!("/v1/diagrams?model={}", scene.model.name()));
     let surface = &scene.surface;
-    query.add_if("rms_height_um", surface.rms_height.map(|value| value.get()));
-    query.add_if("correlation_length_um", surface.correlation_length.map(|value| value.get()));
-    query.add_if("facet_slope_deg", surface.facet_slope.map(|value| value.get()));
+    query.add_if("rms_height_um", surface.rms_height.map(RmsHeight::get));
+    query.add_if("correlation_length_um", surface.correlation_length.map(CorrelationLength::get));
+    query.add_if("facet_slope_deg", surface.facet_slope.map(FacetSlope::get));
     query.add("diffuse_albedo", surface.diffuse_albedo.get());
-    query.add_if("specular_scale", surface.specular_scale.map(|value| value.get()));
-    query.add_if("shadowing", surface.shadowing.map(|value| value.name()));
-    query.add_if("wavelength_um", scene.illumination.wavelength.map(|value| value.get()));
+    query.add_if("specular_scale", surface.specular_scale.map(SpecularScale::get));
+    query.add_if("shadowing", surface.shadowing.map(Shadowing::name));
+    query.add_if("wavelength_um", scene.illumination.wavelength.map(Wavelength::get));
     if let Some(Sensor::Patch { footprint, half_x, half_y }) = scene.sensor {
         query.add("footprint_um2", footprint.get());
         query.add("patch_half_x_um", half_x.get());

@@ -34,8 +34,9 @@ const DEFAULTS = { plot: "curve", scale: "linear", sweep: "theta_r_deg", from_de
 
 /** A state out of a link's parameters. */
 export function parse(text) {
-  const state = { ...DEFAULTS };
   const given = new URLSearchParams(text);
+  // A link that names no scene is about the one that visitors see first.
+  const state = given.has("model") || given.has("figure") ? { ...DEFAULTS } : { ...START };
   // A list may come as several parameters of one name.
   for (const key of given.keys()) state[key] = given.getAll(key).join(",");
   state.medium = state.material !== undefined ? "material" : state.n !== undefined ? "index" : "perfect_conductor";
