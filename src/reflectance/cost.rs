@@ -63,10 +63,9 @@ impl Lobe {
     fn cost(self, asked: Method) -> f64 {
         match (self.by, asked) {
             (EvaluatedBy::ClosedForm, _) => 0.0,
-            // One viewer's.
-            (EvaluatedBy::ConeQuadrature, _) => SADDLE,
             (EvaluatedBy::Lobe(Method::Series), Method::Auto) => LANE_SUM + LANE_TERM * self.terms(),
-            (EvaluatedBy::Lobe(Method::Uniform), Method::Auto) => SADDLE,
+            // Of a cone's mean that of one viewer.
+            (EvaluatedBy::ConeQuadrature, _) | (EvaluatedBy::Lobe(Method::Uniform), Method::Auto) => SADDLE,
             (EvaluatedBy::Lobe(_), Method::Auto) => CLOSED,
             (EvaluatedBy::Lobe(Method::Paper), _) => HUNDRED_TERMS,
             (EvaluatedBy::Lobe(_), _) => self.summed(),
