@@ -36,10 +36,20 @@ export async function serve(flags = [], port = 0) {
 
 export const launch = () => chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
 
+/** What visitors without wishes of their own share: the plot library is read once. */
+const shared = new WeakMap();
+
+async function contextOf(browser, options) {
+  const made = () => browser.newContext({ viewport: { width: 1280, height: 860 }, ...options });
+  if (Object.keys(options).length > 0) return made();
+  if (!shared.has(browser)) shared.set(browser, await made());
+  return shared.get(browser);
+}
+
 /** Opens the page, and waits for its first plot unless told otherwise. What the console complains of is an error of the
  * test, but for answers that the test provokes: `expected` matches those. */
 export async function open(browser, url, { hash = "", expected, drawn = true, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, ...options });
+  const context = await contextOf(browser, options);
   const page = await context.newPage();
   const complaints = [];
   page.on("console", (message) => {
@@ -63,7 +73,7 @@ export async function open(browser, url, { hash = "", expected, drawn = true, ..
   return {
     page,
     async close() {
-      await context.close();
+      await (context === shared.get(browser) ? page : context).close();
       assert.deepEqual(complaints, []);
     },
   };
