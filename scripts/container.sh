@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The image, built and run for real on a Debian machine without a container engine, and held to what is promised of it.
 #
-#   scripts/container.sh                  the whole of docker/Dockerfile: some ten minutes
+#   scripts/container.sh                  the whole of docker/Dockerfile: half an hour on two cores
 #   scripts/container.sh --binary FILE    around a static binary that there is already (scripts/static.sh): a minute
 #
 # Needs root. Installs buildah, podman and runc; the whole build stands on an image that is made here of Debian and this

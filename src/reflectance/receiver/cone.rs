@@ -5,6 +5,9 @@
 //! and in the cone or at its rim, they are polar coordinates around the mirror direction, evenly in asinh(δ/width): a lobe of any
 //! width is then a bump of width 1.
 
+mod squares;
+
+use super::folds::{Cosines, Folds};
 use crate::reflectance::degrees::{SinCos, to_radians};
 use crate::reflectance::geometry::{FacetAngles, Geometry};
 use crate::reflectance::numeric::elementary::hypotenuse;
@@ -41,6 +44,7 @@ pub(super) struct Cone {
     /// Whether it holds the mirror direction; none where rounding would decide.
     holds_mirror: Option<bool>,
     frame: Frame,
+    folds: Folds,
     squares: Vec<Square>,
 }
 
@@ -54,11 +58,12 @@ enum Frame {
     },
 }
 
-/// A range of the azimuth around the frame's pole, and a part of the way from its rim to the far one.
+/// A range of the azimuth around the frame's pole, the way between two folds, and a part of that.
 #[derive(Clone, Copy, Debug)]
 struct Square {
     low: f64,
     high: f64,
+    interval: usize,
     part: f64,
     parts: f64,
 }
@@ -93,6 +98,7 @@ impl Cone {
         (theta_i, theta_r, phi_r): (SourceZenith, ViewerZenith, Azimuth),
         half_angle: ReceiverHalfAngle,
         slope: f64,
+        folds: Folds,
     ) -> Self {
         let (theta_i, theta_r, phi_r, beta) = (theta_i.get(), theta_r.get(), phi_r.get(), half_angle.get());
         let (source, axis) = (SinCos::of_degrees(theta_i), SinCos::of_degrees(theta_r.abs()));
@@ -131,6 +137,7 @@ impl Cone {
                 (margin.abs() > clear).then_some(margin > 0.0)
             },
             frame: Frame::Axis,
+            folds,
             squares: Vec::new(),
         };
         let width = 2.0 * slope;
@@ -184,89 +191,61 @@ impl Cone {
         (Scaled::new(value), around.error / value + 64.0 * f64::EPSILON)
     }
 
-    /// The frame's azimuths between which the rim is smooth, and the squares between them.
-    fn cut(&self) -> Vec<Square> {
-        let mut edges = match self.frame {
-            Frame::Axis => {
-                let mut edges: Vec<f64> = (0..=4).map(|i| FRAC_PI_2 * f64::from(i) - PI).collect();
-                if self.is_cut {
-                    let cot = self.half.cos * self.axis.cos / (self.half.sin * self.axis.sin);
-                    let meets = libm::acos(cot.clamp(-1.0, 1.0));
-                    edges.extend([-meets, meets]);
-                }
-                edges
-            }
-            Frame::Mirror { .. } => {
-                let mut edges: Vec<f64> = if self.surrounds() {
-                    (0..=4).map(|i| FRAC_PI_2 * f64::from(i) - PI).collect()
-                } else {
-                    vec![-FRAC_PI_2, 0.0, FRAC_PI_2]
-                };
-                if self.is_cut {
-                    edges.extend(self.horizon_meets_rim());
-                }
-                edges
-            }
-        };
-        edges.sort_by(f64::total_cmp);
-        edges.dedup_by(|next, before| *next - *before < 1e-12);
-        let mut squares = Vec::new();
-        for pair in edges.windows(2) {
-            let &[low, high] = pair else { continue };
-            let parts = self.parts(low, high);
-            let of_part = |part| Square { low, high, part: f64::from(part), parts: f64::from(parts) };
-            squares.extend((0..parts).map(of_part));
-        }
-        squares
-    }
-
-    /// Whether rays in all directions from the mirror direction, or from its antipode, meet the cone.
-    fn surrounds(&self) -> bool {
-        self.half.sin >= self.apart.sin
-    }
-
-    /// Where rim and horizon meet, by the first coordinate of the mirror's frame.
-    fn horizon_meets_rim(&self) -> Vec<f64> {
-        let cos = self.half.cos / self.axis.sin;
-        if cos > 1.0 {
-            return Vec::new();
-        }
-        let away = libm::acos(cos);
-        let axis = libm::atan2(self.azimuth.sin, self.azimuth.cos);
-        let towards = [axis - away, axis + away].map(SinCos::of_radians);
-        let found = towards.map(|towards| {
-            let around = libm::atan2(towards.sin, towards.cos * self.source.cos) - self.bearing;
-            let around = around - TAU * (around / TAU).round();
-            if self.surrounds() {
-                around
-            } else {
-                libm::asin((libm::sin(around) * self.apart.sin / self.half.sin).clamp(-1.0, 1.0))
-            }
-        });
-        found.to_vec()
-    }
-
-    /// In how many parts rays between two azimuths are cut.
-    fn parts(&self, low: f64, high: f64) -> u32 {
-        if matches!(self.frame, Frame::Axis) {
-            return 1;
-        }
-        let longest = [0.0, 0.25, 0.5, 0.75, 1.0]
-            .map(|share| self.ray_at(low + (high - low) * share))
-            .into_iter()
-            .fold(0.0, |longest: f64, ray| longest.max(ray.to - ray.from));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to some 30")]
-        let parts = (longest / STEP).ceil() as u32;
-        parts.max(1)
-    }
-
     /// The ray at a position along the first side of a square.
     pub(super) fn ray(&self, square: usize, position: f64) -> Ray {
-        let Square { low, high, part, parts } = self.squares[square];
-        let ray = self.ray_at(low + (high - low) * position);
+        let Square { low, high, interval, part, parts } = self.squares[square];
+        let ray = self.between_folds(self.ray_at(low + (high - low) * position), interval);
         let step = (ray.to - ray.from) / parts;
         let from = ray.from + step * part;
         Ray { from, to: from + step, stretch: ray.stretch * (high - low), ..ray }
+    }
+
+    /// What of a ray is between two of its folds.
+    fn between_folds(&self, ray: Ray, interval: usize) -> Ray {
+        let count = self.folds.count();
+        if count == 0 {
+            return ray;
+        }
+        let places = self.folds.along([ray.from, ray.to], |coordinate| self.cosines(&ray, coordinate));
+        let from = if interval == 0 { ray.from } else { places[interval - 1] };
+        let to = if interval == count { ray.to } else { places[interval] };
+        Ray { from, to, ..ray }
+    }
+
+    /// Where a ray is at a coordinate: the cosines of θ_i, θ_r, and of the angle between source and viewer.
+    fn cosines(&self, ray: &Ray, coordinate: f64) -> Cosines {
+        let SinCos { sin: sin_i, cos: cos_i } = self.source;
+        let SinCos { sin: across, cos: outwards } = ray.towards;
+        let (angle, at_pole, towards);
+        match self.frame {
+            Frame::Axis => {
+                let SinCos { sin, cos } = self.axis;
+                angle = coordinate;
+                at_pole = cos_i * cos - sin_i * sin * self.azimuth.cos;
+                towards = -outwards * (sin_i * cos * self.azimuth.cos + cos_i * sin)
+                    + across * sin_i * self.azimuth.sin;
+            }
+            Frame::Mirror { .. } => {
+                angle = ray.width * libm::sinh(coordinate);
+                at_pole = (cos_i - sin_i) * (cos_i + sin_i);
+                towards = -2.0 * sin_i * cos_i * outwards;
+            }
+        }
+        let SinCos { sin, cos } = SinCos::of_radians(angle);
+        Cosines {
+            i: cos_i,
+            r: self.swing(ray) * libm::sin(ray.horizon - angle),
+            between: at_pole * cos + towards * sin,
+        }
+    }
+
+    /// The largest cos θ_r on the great circle of a ray.
+    fn swing(&self, ray: &Ray) -> f64 {
+        let pole = match self.frame {
+            Frame::Axis => self.axis,
+            Frame::Mirror { .. } => self.source,
+        };
+        hypotenuse(pole.cos, pole.sin * ray.towards.cos)
     }
 
     fn ray_at(&self, position: f64) -> Ray {
@@ -326,7 +305,7 @@ impl Cone {
                     self.offset[0] + self.azimuth.cos * level - self.azimuth.sin * across,
                     self.offset[1] + self.azimuth.sin * level + self.azimuth.cos * across,
                 ];
-                cos_r = hypotenuse(axis_cos, axis_sin * towards_cos) * libm::sin(ray.horizon - coordinate);
+                cos_r = self.swing(ray) * libm::sin(ray.horizon - coordinate);
                 length = along;
             }
             Frame::Mirror { .. } => {
@@ -335,8 +314,7 @@ impl Cone {
                 let less = 2.0 * half * half;
                 sin = libm::sin(delta);
                 moved = [sin * towards_cos * self.source.cos - less * self.source.sin, sin * towards_sin];
-                let swing = hypotenuse(self.source.cos, self.source.sin * towards_cos);
-                cos_r = swing * libm::sin(ray.horizon - delta);
+                cos_r = self.swing(ray) * libm::sin(ray.horizon - delta);
                 length = along * ray.width * libm::cosh(coordinate);
             }
         }

@@ -7,6 +7,7 @@
 //! integrated, to the tolerance.
 
 mod cone;
+mod folds;
 #[cfg(test)]
 mod tests;
 
@@ -29,6 +30,7 @@ use super::unified;
 use cone::{Cone, Viewer};
 use core::f64::consts::PI;
 use core::ops::Range;
+use folds::Folds;
 
 /// Rectangles of a rule at most: some 30 ms.
 const MOST_RECTANGLES: usize = 1000;
@@ -107,7 +109,7 @@ impl Receiver {
         let (theta_i, ..) = directions.angles(index);
         let source = SinCos::of_degrees(theta_i.get());
         let slope = self.slope(source);
-        let cone = Cone::new(directions.angles(index), self.half_angle, slope);
+        let cone = Cone::new(directions.angles(index), self.half_angle, slope, self.folds());
         let (projected, rounding) = cone.projected();
         let over = Estimate::within(Scaled::ONE / projected, rounding + 4.0 * EPSILON);
         let mut components = [None; 3];
@@ -128,12 +130,16 @@ impl Receiver {
         Some(Reflection { total: Estimate::total(&components), components, evaluated_by })
     }
 
-    /// Whether the lobe has kinks: those of G (65), and where n < 1 begins to reflect all.
-    fn has_kinks(&self) -> bool {
-        let medium = self.scene.parameters().surface.medium;
-        let is_critical =
-            matches!(medium, Medium::Index(index) if index.n.get() < 1.0 && index.k.get() < 0.5);
-        is_critical || self.scene.shadowing_function() == ShadowingFunction::VGroove
+    /// Where the lobe is folded: by G of (65), and where n < 1 begins to reflect all.
+    fn folds(&self) -> Folds {
+        let critical = match self.scene.parameters().surface.medium {
+            // More absorption rounds the corner off.
+            Medium::Index(index) if index.n.get() < 1.0 && index.k.get() < 0.5 => {
+                Some((1.0 - index.n.get()) * (1.0 + index.n.get()))
+            }
+            Medium::Index(_) | Medium::PerfectConductor => None,
+        };
+        Folds { grooves: self.scene.shadowing_function() == ShadowingFunction::VGroove, critical }
     }
 
     /// tan α of the facets that make the lobe, about.
@@ -189,7 +195,6 @@ impl Receiver {
             tolerance: self.tolerance / CAUTION,
             beside: (beside / unit).to_f64(),
             most: MOST_RECTANGLES,
-            has_kinks: self.has_kinks(),
         };
         let fill = |square: usize, grid: &mut Grid| nodes.fill(kernel, cone, square, unit, grid);
         let sum = cubature::integrate(cone.squares(), goal, is_over, fill)?;
@@ -245,6 +250,10 @@ impl Nodes {
                 }
             }
             let count = viewers.len();
+            if viewers.iter().all(Option::is_none) {
+                self.series.extend((0..count).map(|_| None));
+                continue;
+            }
             lanes::evaluate(InstructionSet::widest(), choice, &g[..count], &x[..count], &mut self.batch);
             self.series.extend((0..count).map(|place| self.batch.get(place)));
         }

@@ -1,4 +1,5 @@
 use super::cone::Cone;
+use super::folds::Folds;
 use super::{CAUTION, Nodes, Receiver};
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::directions::{Angles, Directions};
@@ -73,16 +74,11 @@ fn in_frame(
     let receiver = Receiver::of(&scene, 0.0).unwrap();
     let averages = SlopeAverages::default();
     let kernel = Kernel::new(receiver.scene(), Asked::Brdf, 0.0, &averages);
-    let cone = Cone::new(at, parameters.receiver.unwrap(), slope);
+    let cone = Cone::new(at, parameters.receiver.unwrap(), slope, receiver.folds());
     let unit = kernel.lobe(&cone.nearest(), None).unwrap().value * cone.nearest().cos_r;
     let unit = if unit.is_zero() || !unit.is_finite() { Scaled::ONE } else { unit };
     let mut nodes = Nodes::new();
-    let goal = Goal {
-        tolerance: receiver.tolerance / CAUTION,
-        beside: 0.0,
-        most: 3000,
-        has_kinks: receiver.has_kinks(),
-    };
+    let goal = Goal { tolerance: receiver.tolerance / CAUTION, beside: 0.0, most: 3000 };
     let sum = cubature::integrate(
         cone.squares(),
         goal,
@@ -102,7 +98,12 @@ fn projected_solid_angles_are_those_of_their_closed_forms() {
     // acos(cos β/sin θ) + sin²β cos θ acos(−cot β cot θ) − cos β √(sin²β − cos²θ) out of the others.
     for theta in [0.0f64, 20.0, 60.0, 80.0, 89.9, 90.0] {
         for beta in [1e-3f64, 0.5, 5.0, 29.9, 60.0, 89.0, 90.0] {
-            let cone = Cone::new(angles(30.0, theta, 40.0), ReceiverHalfAngle::new(beta).unwrap(), 0.1);
+            let cone = Cone::new(
+                angles(30.0, theta, 40.0),
+                ReceiverHalfAngle::new(beta).unwrap(),
+                0.1,
+                Folds::default(),
+            );
             let (t, b) = (theta.to_radians(), beta.to_radians());
             let expected = if theta + beta <= 90.0 {
                 PI * b.sin().powi(2) * t.cos()
@@ -270,7 +271,12 @@ fn the_rim_belongs_to_the_cone() {
     ] {
         let phi = if theta_r < 0.0 { 180.0 } else { 0.0 };
         let (theta_r, phi) = if theta_r < 0.0 { (theta_r, 0.0) } else { (theta_r, phi) };
-        let cone = Cone::new(angles(theta_i, theta_r, phi), ReceiverHalfAngle::new(half_angle).unwrap(), 0.1);
+        let cone = Cone::new(
+            angles(theta_i, theta_r, phi),
+            ReceiverHalfAngle::new(half_angle).unwrap(),
+            0.1,
+            Folds::default(),
+        );
         let found = cone.holds_mirror();
         assert!(found == Some(holds) || theta_r < 0.0 && found.is_none(), "{theta_i} {theta_r}: {found:?}");
     }
