@@ -61,7 +61,7 @@ impl Lobe {
     ) -> Option<Cubature> {
         let kinks =
             Kinks { grooves: self.shadowing == ShadowingFunction::VGroove, critical: self.critical() };
-        let goal = Goal { tolerance, beside, most: MOST_RECTANGLES };
+        let goal = Goal { tolerance, beside, most: MOST_RECTANGLES, has_kinks: false };
         let whole = self.over_hemisphere(source, kinks, goal, is_over)?;
         Some(Cubature { error: whole.error + self.beyond(source), ..whole })
     }
@@ -71,7 +71,7 @@ impl Lobe {
         if let Slopes::Heights { method, tier, .. } = &mut self.slopes {
             (*method, *tier) = (Method::Auto, patches::within(0.1));
         }
-        let goal = Goal { tolerance: 0.02, beside, most: MOST_ROUGHLY };
+        let goal = Goal { tolerance: 0.02, beside, most: MOST_ROUGHLY, has_kinks: false };
         self.over_hemisphere(source, Kinks::default(), goal, || false).map_or(0.0, |whole| whole.value)
     }
 

@@ -23,7 +23,7 @@ fn over_viewers(theta_i: f64, width: f64, kinks: Kinks, f: impl Fn(&Geometry) ->
     let hemisphere = Hemisphere::new(SinCos::of_degrees(theta_i), &extent(width), kinks);
     cubature::integrate(
         hemisphere.squares(),
-        Goal { tolerance: 1e-11, beside: 0.0, most: 4000 },
+        Goal { tolerance: 1e-11, beside: 0.0, most: 4000, has_kinks: false },
         || false,
         |square, grid| {
             for i in 0..NODES {

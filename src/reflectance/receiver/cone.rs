@@ -20,6 +20,8 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 const WIDE: f64 = 4.0;
 /// A lobe so far from the axis, over the cone's half angle, is smooth over it but for how it falls off.
 const FAR: f64 = 1.5;
+/// sin θ_i up to which the lobe is about the same all around the normal.
+const EVEN: f64 = 0.02;
 /// Steps of asinh(δ/width) that one square covers at most.
 const STEP: f64 = 3.0;
 
@@ -44,7 +46,6 @@ pub(super) struct Cone {
     /// Whether it holds the mirror direction; none where rounding would decide.
     holds_mirror: Option<bool>,
     frame: Frame,
-    folds: Folds,
     squares: Vec<Square>,
 }
 
@@ -58,12 +59,11 @@ enum Frame {
     },
 }
 
-/// A range of the azimuth around the frame's pole, the way between two folds, and a part of that.
+/// A range of the azimuth around the frame's pole, and a part of the way from its rim to the far one.
 #[derive(Clone, Copy, Debug)]
 struct Square {
     low: f64,
     high: f64,
-    interval: usize,
     part: f64,
     parts: f64,
 }
@@ -98,7 +98,6 @@ impl Cone {
         (theta_i, theta_r, phi_r): (SourceZenith, ViewerZenith, Azimuth),
         half_angle: ReceiverHalfAngle,
         slope: f64,
-        folds: Folds,
     ) -> Self {
         let (theta_i, theta_r, phi_r, beta) = (theta_i.get(), theta_r.get(), phi_r.get(), half_angle.get());
         let (source, axis) = (SinCos::of_degrees(theta_i), SinCos::of_degrees(theta_r.abs()));
@@ -137,7 +136,6 @@ impl Cone {
                 (margin.abs() > clear).then_some(margin > 0.0)
             },
             frame: Frame::Axis,
-            folds,
             squares: Vec::new(),
         };
         let width = 2.0 * slope;
@@ -193,23 +191,24 @@ impl Cone {
 
     /// The ray at a position along the first side of a square.
     pub(super) fn ray(&self, square: usize, position: f64) -> Ray {
-        let Square { low, high, interval, part, parts } = self.squares[square];
-        let ray = self.between_folds(self.ray_at(low + (high - low) * position), interval);
+        let Square { low, high, part, parts } = self.squares[square];
+        let ray = self.ray_at(low + (high - low) * position);
         let step = (ray.to - ray.from) / parts;
         let from = ray.from + step * part;
         Ray { from, to: from + step, stretch: ray.stretch * (high - low), ..ray }
     }
 
-    /// What of a ray is between two of its folds.
-    fn between_folds(&self, ray: Ray, interval: usize) -> Ray {
-        let count = self.folds.count();
-        if count == 0 {
-            return ray;
-        }
-        let places = self.folds.along([ray.from, ray.to], |coordinate| self.cosines(&ray, coordinate));
-        let from = if interval == 0 { ray.from } else { places[interval - 1] };
-        let to = if interval == count { ray.to } else { places[interval] };
-        Ray { from, to, ..ray }
+    /// Whether the lobe is folded at some viewer, as far as can be seen on some rays of each square.
+    pub(super) fn has(&self, folds: Folds) -> bool {
+        let rays = (0..self.squares.len())
+            .flat_map(|square| [0.0, 0.25, 0.5, 0.75, 1.0].map(|position| self.ray(square, position)));
+        folds.are_there()
+            && rays.into_iter().any(|ray| folds.are_on([ray.from, ray.to], |at| self.cosines(&ray, at)))
+    }
+
+    /// Whether folds go round the mirror direction, at one distance all around.
+    pub(super) fn is_even(&self) -> bool {
+        self.source.sin < EVEN
     }
 
     /// Where a ray is at a coordinate: the cosines of θ_i, θ_r, and of the angle between source and viewer.

@@ -1,11 +1,7 @@
-//! Where a lobe is not smooth along a ray of viewers: a rule is not to reach over such a place.
+//! Where a lobe is not smooth among the viewers of a receiver.
 
-/// Points at which a ray is looked at for a change of sign; what turns twice between two of them is left to the rule.
+/// Points at which a ray is looked at.
 const LOOKS: usize = 12;
-/// Halvings of what lies between two of them: to a rounding.
-const HALVINGS: usize = 50;
-/// Folds that there may be.
-const MOST: usize = 4;
 
 /// What folds a lobe.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,49 +23,41 @@ pub(super) struct Cosines {
     pub(super) between: f64,
 }
 
+/// What G of (65) is.
+#[derive(Clone, Copy, PartialEq)]
+enum Branch {
+    Seen,
+    Masked,
+    Shadowed,
+}
+
 impl Folds {
-    /// How many there may be on a ray.
-    pub(super) const fn count(self) -> usize {
-        (if self.grooves { 3 } else { 0 }) + self.critical.is_some() as usize
+    /// Whether there may be any.
+    pub(super) const fn are_there(self) -> bool {
+        self.grooves || self.critical.is_some()
     }
 
-    /// Their places along a ray between two coordinates, ascending; the end where there is none.
-    pub(super) fn along(self, [from, to]: [f64; 2], at: impl Fn(f64) -> Cosines) -> [f64; MOST] {
-        let mut places = [to; MOST];
-        if from >= to {
-            return places;
-        }
-        // With 2 cos α/cos θ′ = (cos θ_i + cos θ_r)/cos² θ′: 1 less that times either cosine, and the two compared.
-        let masked = |c: Cosines| 2.0 * (c.i + c.r) * c.r - (1.0 + c.between);
-        let shadowed = |c: Cosines| 2.0 * (c.i + c.r) * c.i - (1.0 + c.between);
-        let equal = |c: Cosines| c.r - c.i;
-        let mut count = 0;
-        let mut note = |fold: &dyn Fn(Cosines) -> f64| {
-            places[count] = turn([from, to], |coordinate| fold(at(coordinate)));
-            count += 1;
+    /// Whether there is one on a ray between two coordinates.
+    pub(super) fn are_on(self, [from, to]: [f64; 2], at: impl Fn(f64) -> Cosines) -> bool {
+        let sides = |look: usize| {
+            let cosines = at(from + (to - from) * (look as f64 / LOOKS as f64));
+            let beyond = self.critical.map(|square| 0.5 * (1.0 + cosines.between) > square);
+            (self.grooves.then(|| Branch::of(cosines)), beyond)
         };
-        if self.grooves {
-            note(&masked);
-            note(&shadowed);
-            note(&equal);
-        }
-        if let Some(square) = self.critical {
-            note(&|c: Cosines| 0.5 * (1.0 + c.between) - square);
-        }
-        places[..count].sort_by(f64::total_cmp);
-        places
+        let first = sides(0);
+        (1..=LOOKS).any(|look| sides(look) != first)
     }
 }
 
-/// The first place at which a function changes its sign, or the end.
-fn turn([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
-    let place = |look: usize| from + (to - from) * (look as f64 / LOOKS as f64);
-    let is_positive = f(from) > 0.0;
-    let Some(after) = (1..=LOOKS).find(|&look| (f(place(look)) > 0.0) != is_positive) else { return to };
-    let (mut low, mut high) = (place(after - 1), place(after));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if (f(middle) > 0.0) == is_positive { low = middle } else { high = middle }
+impl Branch {
+    fn of(Cosines { i, r, between }: Cosines) -> Self {
+        // 2 cos α/cos θ′ = (cos θ_i + cos θ_r)/cos² θ′, times the smaller cosine, against 1.
+        if 2.0 * (i + r) * i.min(r) >= 1.0 + between {
+            Self::Seen
+        } else if r < i {
+            Self::Masked
+        } else {
+            Self::Shadowed
+        }
     }
-    high
 }

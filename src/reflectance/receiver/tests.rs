@@ -1,6 +1,5 @@
+use super::Receiver;
 use super::cone::Cone;
-use super::folds::Folds;
-use super::{CAUTION, Nodes, Receiver};
 use crate::reflectance::degrees::SinCos;
 use crate::reflectance::directions::{Angles, Directions};
 use crate::reflectance::estimate::Estimate;
@@ -9,7 +8,6 @@ use crate::reflectance::fresnel::{Medium, RefractiveIndex};
 use crate::reflectance::fresnel_average::table::SlopeAverages;
 use crate::reflectance::kernel::Kernel;
 use crate::reflectance::numeric::EPSILON;
-use crate::reflectance::numeric::cubature::{self, Goal};
 use crate::reflectance::numeric::scaled::Scaled;
 use crate::reflectance::quantity::{
     Azimuth, IndexK, IndexN, Quantity, ReceiverHalfAngle, SourceZenith, Tolerance, ViewerZenith,
@@ -74,22 +72,16 @@ fn in_frame(
     let receiver = Receiver::of(&scene, 0.0).unwrap();
     let averages = SlopeAverages::default();
     let kernel = Kernel::new(receiver.scene(), Asked::Brdf, 0.0, &averages);
-    let cone = Cone::new(at, parameters.receiver.unwrap(), slope, receiver.folds());
-    let unit = kernel.lobe(&cone.nearest(), None).unwrap().value * cone.nearest().cos_r;
-    let unit = if unit.is_zero() || !unit.is_finite() { Scaled::ONE } else { unit };
-    let mut nodes = Nodes::new();
-    let goal = Goal { tolerance: receiver.tolerance / CAUTION, beside: 0.0, most: 3000 };
-    let sum = cubature::integrate(
-        cone.squares(),
-        goal,
+    let cone = Cone::new(at, parameters.receiver.unwrap(), slope);
+    let all = receiver.integral(
+        &kernel,
+        &cone,
+        receiver.slope(SinCos::of_degrees(at.0.get())),
+        Scaled::ZERO,
+        3000,
         || false,
-        |i, grid| nodes.fill(&kernel, &cone, i, unit, grid),
-    )
-    .unwrap();
-    let rim = cone.rim(receiver.slope(SinCos::of_degrees(at.0.get())));
-    let error = CAUTION * sum.error + rim * sum.value;
-    let all = Estimate { value: Scaled::new(sum.value), error: Scaled::new(error), least: Scaled::ZERO };
-    (all.scaled_by(unit), cone.projected().0.to_f64())
+    );
+    (all.unwrap(), cone.projected().0.to_f64())
 }
 
 #[test]
@@ -98,12 +90,7 @@ fn projected_solid_angles_are_those_of_their_closed_forms() {
     // acos(cos β/sin θ) + sin²β cos θ acos(−cot β cot θ) − cos β √(sin²β − cos²θ) out of the others.
     for theta in [0.0f64, 20.0, 60.0, 80.0, 89.9, 90.0] {
         for beta in [1e-3f64, 0.5, 5.0, 29.9, 60.0, 89.0, 90.0] {
-            let cone = Cone::new(
-                angles(30.0, theta, 40.0),
-                ReceiverHalfAngle::new(beta).unwrap(),
-                0.1,
-                Folds::default(),
-            );
+            let cone = Cone::new(angles(30.0, theta, 40.0), ReceiverHalfAngle::new(beta).unwrap(), 0.1);
             let (t, b) = (theta.to_radians(), beta.to_radians());
             let expected = if theta + beta <= 90.0 {
                 PI * b.sin().powi(2) * t.cos()
@@ -161,10 +148,7 @@ fn both_frames_say_the_same() {
             let share = (off / bound).to_f64();
             worst = worst.max(share);
             assert!(
-                off.to_f64() <= bound.to_f64() || off.is_zero() || {
-                    println!("BAD {case} {name} {share} {tolerance} {p:?} {at:?}");
-                    std::env::var("GO_ON").is_ok()
-                },
+                off.to_f64() <= bound.to_f64() || off.is_zero(),
                 "case {case}, {name}: {p:?}\nat {at:?}: {one:?} against {other:?}"
             );
         }
@@ -202,7 +186,7 @@ fn a_hemisphere_reads_the_albedo() {
                     AlbedoScene::new(p).unwrap().at(SourceZenith::new(theta_i).unwrap(), || false).unwrap();
                 let bound = (read.error + albedo.total.error).to_f64();
                 let off = read.value.distance(albedo.total.value).to_f64();
-                assert!(off <= bound && bound < 5e-5, "{model:?} {shadowing:?} {theta_i}: {off:e} {bound:e}");
+                assert!(off <= bound && bound < 1e-4, "{model:?} {shadowing:?} {theta_i}: {off:e} {bound:e}");
             }
         }
     }
@@ -271,12 +255,7 @@ fn the_rim_belongs_to_the_cone() {
     ] {
         let phi = if theta_r < 0.0 { 180.0 } else { 0.0 };
         let (theta_r, phi) = if theta_r < 0.0 { (theta_r, 0.0) } else { (theta_r, phi) };
-        let cone = Cone::new(
-            angles(theta_i, theta_r, phi),
-            ReceiverHalfAngle::new(half_angle).unwrap(),
-            0.1,
-            Folds::default(),
-        );
+        let cone = Cone::new(angles(theta_i, theta_r, phi), ReceiverHalfAngle::new(half_angle).unwrap(), 0.1);
         let found = cone.holds_mirror();
         assert!(found == Some(holds) || theta_r < 0.0 && found.is_none(), "{theta_i} {theta_r}: {found:?}");
     }

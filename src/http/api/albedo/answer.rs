@@ -19,7 +19,7 @@ use utoipa::ToSchema;
 #[schema(as = AlbedoOrSpectrum)]
 pub(crate) enum AlbedoOrSpectrum {
     /// Of one light.
-    Albedo(AlbedoAnswer),
+    Albedo(Box<AlbedoAnswer>),
     /// Of each wavelength.
     Spectrum(AlbedoSpectrum),
 }
@@ -270,10 +270,10 @@ impl Table {
         let parts = self.scenes.iter().zip(albedos.chunks(self.incidences.len()));
         let values = |scene, lookup, albedos| AlbedoValues::new(scene, lookup, &self.incidences, albedos);
         let answer = match &self.light {
-            Light::One(lookup) => AlbedoOrSpectrum::Albedo(AlbedoAnswer {
+            Light::One(lookup) => AlbedoOrSpectrum::Albedo(Box::new(AlbedoAnswer {
                 quantity,
                 values: values(&self.scenes[0], *lookup, albedos),
-            }),
+            })),
             Light::Spectrum(lines) => {
                 let line = |(line, (scene, albedos)): (&Line, (_, _))| AlbedoLine {
                     wavelength_um: line.wavelength.get(),

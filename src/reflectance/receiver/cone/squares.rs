@@ -1,4 +1,4 @@
-//! How the viewers of a cone are cut into squares, on whose edges horizon, rim and folds lie.
+//! How the viewers of a cone are cut into squares, on whose edges horizon and rim lie.
 
 use super::{Cone, Frame, STEP, Square};
 use crate::reflectance::degrees::SinCos;
@@ -34,12 +34,9 @@ impl Cone {
         let mut squares = Vec::new();
         for pair in edges.windows(2) {
             let &[low, high] = pair else { continue };
-            for interval in 0..=self.folds.count() {
-                let parts = self.parts(low, high, interval);
-                let of_part =
-                    |part| Square { low, high, interval, part: f64::from(part), parts: f64::from(parts) };
-                squares.extend((0..parts).map(of_part));
-            }
+            let parts = self.parts(low, high);
+            let of_part = |part| Square { low, high, part: f64::from(part), parts: f64::from(parts) };
+            squares.extend((0..parts).map(of_part));
         }
         squares
     }
@@ -70,13 +67,13 @@ impl Cone {
         found.to_vec()
     }
 
-    /// In how many parts the way between two folds is cut on rays between two azimuths.
-    fn parts(&self, low: f64, high: f64, interval: usize) -> u32 {
+    /// In how many parts rays between two azimuths are cut.
+    fn parts(&self, low: f64, high: f64) -> u32 {
         if matches!(self.frame, Frame::Axis) {
             return 1;
         }
         let longest = [0.0, 0.25, 0.5, 0.75, 1.0]
-            .map(|share| self.between_folds(self.ray_at(low + (high - low) * share), interval))
+            .map(|share| self.ray_at(low + (high - low) * share))
             .into_iter()
             .fold(0.0, |longest: f64, ray| longest.max(ray.to - ray.from));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to some 30")]
