@@ -118,6 +118,8 @@ test("what is drawn is also said", async () => {
   assert.match(label, /^Radiance over θᵣ\. Largest 38\.\d+ at 30°\.$/);
   assert.equal(await page.locator("#status").textContent(), label.replace(". ", ": "));
   await page.click("#values summary");
+  // The browser tells of an opened group a moment later, and the table is made then.
+  await page.waitForSelector("#table tbody tr");
   const [first] = await page.$$eval("#table tbody tr", (rows) =>
     rows.map((row) => [...row.children].map((cell) => cell.textContent)),
   );
