@@ -69,7 +69,7 @@ pub const OFF_AXIS: Bounds = Bounds::new("off-axis angle", "degrees", 0.0, 89.0)
 /// Half angle of the cone that a receiver of finite size takes the mean over.
 pub const RECEIVER_HALF_ANGLE: Bounds = Bounds::new("half angle of the receiver", "degrees", 1e-60, 90.0);
 /// Directions, at all wavelengths and over all curves together, around which one request takes the mean over a receiver's cone:
-/// each takes from a tenth of a millisecond to some thirty.
+/// each takes from a tenth of a millisecond to a quarter of a second.
 pub const MAX_RECEIVED: usize = 10_000;
 /// Real part n of the complex refractive index n − ik.
 pub const INDEX_N: Bounds = Bounds::new("refractive index n", "", 1e-9, 1e9);

@@ -32,7 +32,7 @@ use core::f64::consts::PI;
 use core::ops::Range;
 use folds::Folds;
 
-/// Rectangles of a rule at most: some 30 ms.
+/// Rectangles of a rule at most: up to a quarter of a second.
 const MOST_RECTANGLES: usize = 1000;
 /// The error stated is so many times what the rule says.
 const CAUTION: f64 = 4.0;
