@@ -2,18 +2,10 @@
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { after, before, test } from "node:test";
-import { ask, drawing, fill, launch, open, plotted, request, serve, unfold } from "./start.js";
+import { test } from "node:test";
+import { ask, begin, drawing, fill, open, plotted, request, unfold } from "./start.js";
 
-let service;
-let browser;
-before(async () => {
-  [service, browser] = await Promise.all([serve(), launch()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const [service, browser] = await begin();
 
 /** The total of the first curve. */
 const total = async (page) => (await plotted(page)).find(({ name }) => name === "total" || name.startsWith("θ"));

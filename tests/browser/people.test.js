@@ -2,20 +2,12 @@
 
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
-import { after, before, test } from "node:test";
-import { ask, drawing, launch, open, plotted, request, serve, unfold } from "./start.js";
+import { test } from "node:test";
+import { ask, begin, drawing, open, plotted, request, unfold } from "./start.js";
 
 const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
-let service;
-let browser;
-before(async () => {
-  [service, browser] = await Promise.all([serve(), launch()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const [service, browser] = await begin();
 
 /** What axe finds, in short. The page's policy lets no script in that is not its own: axe runs beside it. */
 async function violations(page) {

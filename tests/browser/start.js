@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { createInterface } from "node:readline";
+import { after } from "node:test";
 import { chromium } from "playwright-core";
 
 const BINARY = process.env.REFLECTANCE_BINARY ?? "target/release/reflectance";
@@ -35,6 +36,16 @@ export async function serve(flags = [], port = 0) {
 }
 
 export const launch = () => chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
+
+/** A service and a browser for a file of tests, which end with it. */
+export async function begin() {
+  const [service, browser] = await Promise.all([serve(), launch()]);
+  after(async () => {
+    await browser.close();
+    await service.stop();
+  });
+  return [service, browser];
+}
 
 /** What visitors without wishes of their own share: the plot library is read once. */
 const shared = new WeakMap();

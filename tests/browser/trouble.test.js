@@ -4,18 +4,10 @@ import assert from "node:assert/strict";
 import { writeFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { ask, drawing, fill, launch, open, plotted, request, serve } from "./start.js";
+import { test } from "node:test";
+import { ask, begin, drawing, fill, open, plotted, request, serve } from "./start.js";
 
-let service;
-let browser;
-before(async () => {
-  [service, browser] = await Promise.all([serve(), launch()]);
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+const [service, browser] = await begin();
 
 const REFUSED = /Failed to load resource/;
 const total = async (page) => (await plotted(page)).find(({ name }) => name === "total").y;
